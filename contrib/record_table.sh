@@ -41,6 +41,8 @@ row "$edge" "n = 6, h = 0.001, s = 0.008, c = 0.03"
 row "$edge" "n = 8, h = 0.0003, s = 0.005, c = 0.02"
 row "$edge" "n = 12, h = 0.0003, s = 0.005, c = 0.03"
 row "$edge" "n = 12, h = 0.0002, s = 0.004, c = 0.025, k = 1.35"
+row "$edge" "n = 14, h = 0.0003, s = 0.003, c = 0.02, g = 1.3"
+row "$edge" "n = 14, h = 0.00025, s = 0.0025, c = 0.02, g = 1.3"
 
 # slip EDGES SIZE LARGEST GROWTH LAYER: the same for partial slip; finds the edges.
 slip() {

@@ -73,10 +73,10 @@ namespace Touchstone
     seen.compress();
     // One rank has all values: no list of them is needed.
     if (Utilities::MPI::n_mpi_processes(solid.communicator) == 1)
-      ghosted.reinit(solid.owned, solid.communicator);
+      ghosted.reinit(solid.zero_vector());
     else
       ghosted.reinit(solid.owned, seen, solid.communicator);
-    import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
+    import_ghosts.emplace(solid.zero_vector(), ghosted);
   }
 
 

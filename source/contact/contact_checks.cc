@@ -26,7 +26,7 @@ namespace Touchstone
   normal_forces(const Contact &contact, const ContactPair &pair)
   {
     const Solid        &solid = contact.solid_model();
-    Vector              owned(solid.owned, solid.communicator);
+    Vector              owned(solid.zero_vector());
     std::vector<Index>  dofs;
     std::vector<double> values;
     for (const ContactRow &row : pair.rows())
@@ -161,7 +161,7 @@ namespace Touchstone
           pairs.emplace(contact.pair(p).slave_body(), p);
       if (bodies.empty())
         return;
-      const Vector zero = contact.with_ghosts(Vector(solid.owned, solid.communicator));
+      const Vector zero = contact.with_ghosts(solid.zero_vector());
       for (const BodyOverlap &overlap :
            overlapping_bodies(contact, zero, bodies, Tolerances::deep_edge))
         if (overlap.body == overlap.other)

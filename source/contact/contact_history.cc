@@ -58,7 +58,7 @@ namespace Touchstone
   std::vector<Vector>
   Contact::fields(const bool of_committed) const
   {
-    std::vector<Vector> result(n_fields * pairs.size(), Vector(solid.owned, solid.communicator));
+    std::vector<Vector> result(n_fields * pairs.size(), solid.zero_vector());
     for (const ContactRow &present : all_rows)
       {
         // Those between nodes have no area and hence no density: they are found anew.

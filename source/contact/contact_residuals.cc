@@ -48,7 +48,7 @@ namespace Touchstone
     nodal_fields(const Contact &contact, const unsigned int p, const Vector &force)
     {
       const Solid       &solid = contact.solid_model();
-      const Vector       zero(solid.owned, solid.communicator);
+      const Vector       zero(solid.zero_vector());
       Vector             pressure(zero), pressure_z(zero), active(zero), overlap(zero);
       const ContactPair &pair   = contact.pair(p);
       const double       part   = pair.part_of_overlap(contact.time());

@@ -52,7 +52,7 @@ namespace Touchstone
     nodes_of_several_pairs(const std::vector<std::unique_ptr<ContactPair>> &pairs,
                            const Solid                                     &solid)
     {
-      Vector count(solid.owned, solid.communicator), of_pair(count);
+      Vector count(solid.zero_vector()), of_pair(count);
       for (const auto &pair : pairs)
         {
           std::set<Index> nodes;

@@ -53,8 +53,7 @@ namespace Touchstone
     spread(const Contact &contact, const unsigned int pair, const Vector &u)
     {
       const Solid &solid = contact.solid_model();
-      Spread       result{Vector(solid.owned, solid.communicator),
-                    Vector(solid.owned, solid.communicator)};
+      Spread       result{solid.zero_vector(), solid.zero_vector()};
 
       std::vector<Index>  force_dofs, mean_dofs;
       std::vector<double> forces, means;

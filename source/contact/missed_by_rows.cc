@@ -163,7 +163,7 @@ namespace Touchstone
           // What has been so from the start, or half as deep, is as the scene has it: facets of
           // tubes with a clearance overlap, more or less as they slide along each other.
           constexpr double half = 0.5;
-          const Vector     zero = contact.with_ghosts(Vector(solid.owned, solid.communicator));
+          const Vector     zero = contact.with_ghosts(solid.zero_vector());
           const auto       before =
             overlapping_bodies(contact, zero, bodies, half * Tolerances::deep_in_body);
           if (std::any_of(before.begin(), before.end(), [&](const BodyOverlap &other) {

@@ -47,7 +47,7 @@ namespace Touchstone
     Vector
     covered(const CoverOfNodes *const cover, const Solid &solid)
     {
-      Vector result(solid.owned, solid.communicator);
+      Vector result(solid.zero_vector());
       if (cover)
         for (const auto &[node, area] : cover->covered)
           for (unsigned int d = 0; d < dim; ++d)
@@ -75,13 +75,13 @@ namespace Touchstone
     if (Utilities::MPI::max(static_cast<int>(any), solid.communicator) == 0)
       return result;
     std::vector<Vector> of_pairs;
-    Vector              sum(solid.owned, solid.communicator);
+    Vector              sum(solid.zero_vector());
     for (const auto &pair : pairs)
       sum += of_pairs.emplace_back(covered(pair->pairing().cover(), solid));
     int found = 0;
     for (std::size_t p = 0; p < pairs.size(); ++p)
       {
-        Vector &field = result.emplace_back(solid.owned, solid.communicator);
+        Vector &field = result.emplace_back(solid.zero_vector());
         if (const CoverOfNodes *const cover = pairs[p]->pairing().cover())
           for (const auto &[node, whole] : cover->whole)
             if (is_partial(*cover, node, whole))

@@ -35,7 +35,7 @@ namespace Touchstone
                  : std::set<Index>())
     , mass(parameters.mass, solid, massless, step)
     , body(bodies_of_unknowns(solid))
-    , damping_mass(solid.owned, solid.communicator)
+    , damping_mass(solid.zero_vector())
     , damping_stiffness(damping_mass)
     , v(damping_mass)
     , a(v)

@@ -26,7 +26,7 @@ namespace Touchstone
                 std::array<std::string, 3> BodyParameters::*const formulas)
     {
       Formulas all;
-      Vector   result(solid.owned, solid.communicator);
+      Vector   result(solid.zero_vector());
       // Interpolation at the support points of the element, which are the nodes.
       const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
       std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());

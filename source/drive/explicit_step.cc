@@ -36,7 +36,7 @@ namespace Touchstone
     , supports(boundary_conditions, map)
     , loads(boundary_conditions, solid, map)
     , cells(map, scene.bodies, parameters)
-    , displacement(solid.owned, solid.communicator)
+    , displacement(solid.zero_vector())
     , velocity(displacement)
   {
     if (solid.has_hanging_nodes())

@@ -197,7 +197,7 @@ namespace Touchstone
                         solid,
                         conditions.mirrors(),
                         conditions.supported_directions());
-        contact.update(Vector(solid.owned, solid.communicator), 0.);
+        contact.update(solid.zero_vector(), 0.);
         return start_report(contact);
       }
     catch (const InputError &error)

@@ -170,7 +170,7 @@ namespace Touchstone
     change();
     solid.reinit();
 
-    std::vector<Vector>   result(fields.size(), Vector(solid.owned, solid.communicator));
+    std::vector<Vector>   result(fields.size(), solid.zero_vector());
     std::vector<Vector *> after;
     for (Vector &field : result)
       after.push_back(&field);

@@ -51,7 +51,7 @@ namespace Touchstone
                                const double          length,
                                const bool            refined_only) const
   {
-    Vector at_slaves(solid.owned, solid.communicator), at_masters(at_slaves);
+    Vector at_slaves(solid.zero_vector()), at_masters(at_slaves);
     for_each_face(solid,
                   boundaries.slave_body,
                   boundaries.slave,

@@ -23,7 +23,7 @@ namespace Touchstone
         // Linear bodies start a step with an extrapolation; at finite strain it could turn cells
         // inside out.
         , guesses(solid.linear())
-        , motion(solid.owned, solid.communicator)
+        , motion(solid.zero_vector())
         , motion_of_step(motion)
       {
         fields = {{"motion", &motion}};
@@ -32,7 +32,7 @@ namespace Touchstone
       Vector
       initial_displacement() const override
       {
-        return Vector(solid.owned, solid.communicator);
+        return solid.zero_vector();
       }
 
       void

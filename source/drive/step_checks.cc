@@ -185,7 +185,7 @@ namespace Touchstone
     // What supports carry is not out of balance.
     Vector free(unbalanced);
     system->remove_supported(free);
-    Vector positions(solid.owned, solid.communicator);
+    Vector positions(solid.zero_vector());
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
     const std::vector<unsigned int> body = bodies_of_unknowns(solid);
 

@@ -57,7 +57,7 @@ namespace Touchstone
     // Statics has no energy balance and needs none of these forces.
     if (!integration->dynamic())
       return use(StepForces());
-    Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
+    Vector normal(solid.zero_vector()), tangential(normal), support(unbalanced);
     contact.add_forces(normal, ForcePart::normal);
     contact.add_forces(tangential, ForcePart::tangential);
     // What the supports add is what is missing to the balance of the nodes.

@@ -35,7 +35,7 @@ namespace Touchstone
               boundary_conditions.supported_directions())
     , pretension(scene.pairs, scene.load_stepping, contact)
     , tools(scene.obstacles, scene.time_integration, scene.newton.residual_tolerance, contact)
-    , u(solid.owned, solid.communicator)
+    , u(solid.zero_vector())
     , committed_u(u)
     , external(u)
     , internal(u)
@@ -61,6 +61,8 @@ namespace Touchstone
         slaves.insert(dim * row.slave);
     integration = TimeIntegration::make(
       scene.time_integration, scene.load_stepping.nominal_step(0.), solid, slaves, committed_u);
+    if (const Mass *const mass = integration->moved_mass())
+      boundary_conditions.act_on_mass(*mass);
     system = std::make_unique<StepSystem>(
       StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
     parts = {integration.get(), &solid, &contact, &pretension, &tools};

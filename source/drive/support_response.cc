@@ -36,7 +36,7 @@ namespace Touchstone
     // 1e-4 the estimate depended on the number of ranks by 1e-3.
     system->assemble(
       {time, u, applied, unbalanced, scene.linear_solver.tolerance, forcing_term.slow()});
-    Vector response(solid.owned, solid.communicator);
+    Vector response(solid.zero_vector());
     system->solve(response);
     // As residual() has left them.
     system->prescribe(time, u);

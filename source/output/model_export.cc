@@ -183,10 +183,10 @@ namespace Touchstone
       for (const auto &[support, list] : lists)
         displacements.set(support, list);
 
-      Vector force(solid.owned, solid.communicator);
+      Vector force(solid.zero_vector());
       // Loads of the reference configuration (zero displacement): for pressure that follows the
       // surface, doc/theory.md 2.3, the other program has to do that itself.
-      conditions.external_force(time, Vector(solid.owned, solid.communicator), force);
+      conditions.external_force(time, solid.zero_vector(), force);
       // Scale of round-off of the nodal forces: loads that cancel at a node leave digits that are
       // no load.
       const double largest = force.linfty_norm();

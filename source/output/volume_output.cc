@@ -235,7 +235,7 @@ namespace Touchstone
   Vector
   VolumeOutput::vector_field(const std::vector<double> &values) const
   {
-    Vector field(solid.owned, solid.communicator);
+    Vector field(solid.zero_vector());
     std::copy(values.begin(), values.end(), field.begin());
     return solid.ghosted(field);
   }

@@ -173,7 +173,7 @@ namespace Touchstone
     // without massless nodes on any rank there is nothing to correct.
     if (Utilities::MPI::max(massless.size(), solid.communicator) == 0)
       return result;
-    Vector coordinates(solid.owned, solid.communicator);
+    Vector coordinates(solid.zero_vector());
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, coordinates);
     const Vector positions = solid.ghosted(coordinates);
     const auto   boxes     = body_boxes(solid);

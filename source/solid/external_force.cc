@@ -110,6 +110,11 @@ namespace Touchstone
   {
     if (body_forces.empty())
       return;
+    if (mass != nullptr)
+      {
+        add_forces_on_mass(t, force);
+        return;
+      }
     FEValues<dim>      values(solid.mapping,
                          solid.fe,
                          QGauss<dim>(solid.fe.degree + 1),
@@ -132,5 +137,37 @@ namespace Touchstone
                     force(dofs[i]) += values.shape_value(i, q) * b * values.JxW(q);
         }
     force.compress(VectorOperation::add);
+  }
+
+
+
+  /** f = M b / rho. Gravity accelerates all nodes alike then, and a body that falls is free of
+   * stress; at a node without mass the weight would hang on its cells instead. Of the
+   * mass with the densities that make up for what was moved, so that resultant and centre are
+   * those of the body. */
+  void
+  BoundaryConditions::add_forces_on_mass(const double t, Vector &force) const
+  {
+    Vector                        acceleration(solid.zero_vector()), of_mass(acceleration);
+    const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
+    std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const std::array<Function, dim> &functions = body_forces[cell->material_id()];
+          if (!functions[0] && !functions[1] && !functions[2])
+            continue;
+          const double density = solid.bodies[cell->material_id()].material.density;
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (const auto &function = functions[solid.fe.system_to_component_index(i).first];
+                function && solid.owned.is_element(dofs[i]))
+              acceleration(dofs[i]) =
+                function->value(solid.mapping.transform_unit_to_real_cell(cell, unit[i]), t) /
+                density;
+        }
+    acceleration.compress(VectorOperation::insert);
+    mass->multiply(acceleration, of_mass);
+    force += of_mass;
   }
 } // namespace Touchstone

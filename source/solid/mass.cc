@@ -3,6 +3,8 @@
 #include <touchstone/solid/cell_mass.h>
 #include <touchstone/solid/mass.h>
 
+#include <deal.II/base/mpi.h>
+
 // The mass matrix: consistent, lumped, or integrated with points that depend on the Courant
 // number (cell_mass.cc). Contact nodes can be made massless, so that their contact forces do not
 // oscillate in time; their mass goes to the other nodes of the cell, and factors on the densities
@@ -15,10 +17,11 @@ namespace Touchstone
              const Solid           &solid,
              const std::set<Index> &massless,
              const double           step)
-    : nodal(solid.owned, solid.communicator)
+    : nodal(solid.zero_vector())
     , diagonal(kind == MassKind::lumped)
+    , any_massless(Utilities::MPI::max(massless.size(), solid.communicator) > 0)
   {
-    Vector flag(solid.owned, solid.communicator);
+    Vector flag(solid.zero_vector());
     for (const Index node : massless)
       flag(node) = 1.;
     flag.compress(VectorOperation::insert);

@@ -185,9 +185,21 @@ namespace Touchstone
   CellKernel &
   NonlinearCells::go_to(const std::size_t c, const Vector &u, double &determinant)
   {
+    // Owned dofs follow one another in the layout with ghosts, too: one look-up in its hash table
+    // finds all of the cell.
+    const Epetra_BlockMap &layout  = u.trilinos_partitioner();
+    const Index *const     of_cell = &dofs[c * n_nodes];
+    const int *const       row     = &rows[c * n_nodes];
+    const auto             local   = [&](const unsigned int a) {
+      return layout.LID(static_cast<int>(of_cell[a]));
+    };
+    const unsigned int owned =
+      std::find_if(row, row + n_nodes, [](const int r) { return r >= 0; }) - row;
+    const int first = owned < n_nodes ? local(owned) - row[owned] : 0;
     for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        displacement[dim * a + d] = u(dofs[c * n_nodes + a] + d);
+      std::copy_n(u.begin() + (row[a] >= 0 ? first + row[a] : local(a)),
+                  dim,
+                  displacement.data() + dim * a);
     CellKernel &kernel = *kernels[cells[c].body];
     determinant        = kernel.reinit(&positions[c * dim * n_nodes],
                                 displacement.data(),

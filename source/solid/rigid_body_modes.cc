@@ -231,7 +231,7 @@ namespace Touchstone
                                 const double      distance,
                                 const double      smallest) const
   {
-    Vector        shift(solid.owned, solid.communicator);
+    Vector        shift(solid.zero_vector());
     const Matrix &stiffness = solid.stiffness();
 
     // The six motions at an unknown; the columns turn about the centre of the first body, in

@@ -45,6 +45,13 @@ namespace Touchstone
     dof_handler.distribute_dofs(fe);
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    zero.reinit(owned, communicator);
+    // One rank has all values, and a map with a list of them is as large as half of the vector.
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        zero_with_ghosts.reinit(owned, relevant, communicator);
+        import_ghosts.emplace(zero, zero_with_ghosts);
+      }
     hanging.reinit(relevant);
     DoFTools::make_hanging_node_constraints(dof_handler, hanging);
     hanging.close();
@@ -136,11 +143,11 @@ namespace Touchstone
   Vector
   Solid::ghosted(const Vector &u) const
   {
-    // One rank has all values, and a map with a list of them is as large as half of the vector.
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+    if (!import_ghosts)
       return u;
-    Vector result(owned, relevant, communicator);
-    result = u;
+    Vector result;
+    result.reinit(zero_with_ghosts, /*omit_zeroing_entries=*/true);
+    (*import_ghosts)(u, result);
     return result;
   }
 
@@ -163,7 +170,7 @@ namespace Touchstone
     for (const auto &cells : linear_cells)
       if (cells)
         cells->finish(stiffness);
-    assemble(Vector(owned, communicator));
+    assemble(zero);
   }
 
 

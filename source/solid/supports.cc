@@ -105,7 +105,7 @@ namespace Touchstone
   Vector
   BoundaryConditions::nodal_reactions(const Vector &unbalanced) const
   {
-    Vector result(solid.owned, solid.communicator);
+    Vector result(solid.zero_vector());
     for_each_share(unbalanced, [&result](const Prescribed &p, const Tensor<1, dim> &force) {
       for (unsigned int d = 0; d < dim; ++d)
         result(dim * p.node + d) += force[d];

@@ -39,7 +39,7 @@ namespace Touchstone
     recover(const Solid &solid, const PairBoundaries &boundaries, Vector &nodal)
     {
       const Vector                before = solid.ghosted(nodal);
-      Vector                      means(solid.owned, solid.communicator), areas(means);
+      Vector                      means(solid.zero_vector()), areas(means);
       FEFaceValues<dim>           values(solid.mapping,
                                solid.fe,
                                QGauss<dim - 1>(solid.fe.degree + 1),

@@ -50,6 +50,11 @@ namespace Touchstone
     balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum) override;
     const Matrix &
     stiffness() override;
+    const Mass *
+    moved_mass() const override
+    {
+      return mass.moved() ? &mass : nullptr;
+    }
     double
     weight() const override
     {

@@ -8,6 +8,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/time_parameters.h>
 #include <touchstone/solid/energies.h>
+#include <touchstone/solid/mass.h>
 #include <touchstone/solid/solid.h>
 
 #include <functional>
@@ -125,6 +126,14 @@ namespace Touchstone
     /** @brief Minus the derivative of balance(), for @p solid's present stiffness. */
     virtual const Matrix &
     stiffness() = 0;
+
+    /** @brief The mass, if it is not where the density is, but some nodes have given theirs to
+     * others; else null. */
+    virtual const Mass *
+    moved_mass() const
+    {
+      return nullptr;
+    }
 
     /** @brief Share of the forces at the end of the step in balance(); no unit. */
     virtual double

@@ -7,6 +7,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/solid/follower_pressure.h>
 #include <touchstone/solid/ground_springs.h>
+#include <touchstone/solid/mass.h>
 #include <touchstone/solid/node_sets.h>
 #include <touchstone/solid/resultant_load.h>
 
@@ -81,6 +82,14 @@ namespace Touchstone
      * @throws InputError if a formula is not finite. */
     void
     external_force(double t, const Vector &u, Vector &force) const;
+
+    /** @brief From now on body forces act where @p of_nodes, kept by reference, has the mass, and
+     * not at nodes whose mass has gone to others. */
+    void
+    act_on_mass(const Mass &of_nodes)
+    {
+      mass = &of_nodes;
+    }
 
     /** @name The conditions themselves, for explicit dynamics, which evaluates them in each cycle
      */
@@ -201,9 +210,11 @@ namespace Touchstone
     std::vector<NodeSetLoad>                             set_loads;
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;
-    FollowerPressure                       following;
-    GroundSprings                          springs;
-    std::vector<Reaction>                  supports;
+    /** Of the nodes if some have none, else null. */
+    const Mass           *mass = nullptr;
+    FollowerPressure      following;
+    GroundSprings         springs;
+    std::vector<Reaction> supports;
 
     /** Boundaries of a body that are fixed, and those of symmetry with their normals. */
     struct Supported
@@ -243,6 +254,9 @@ namespace Touchstone
     add_set_forces(double t, Vector &force) const;
     void
     add_body_forces(double t, Vector &force) const;
+    /** The same as products of masses and accelerations. */
+    void
+    add_forces_on_mass(double t, Vector &force) const;
     void
     add_tractions(double t, Vector &force) const;
     void

@@ -59,6 +59,13 @@ namespace Touchstone
     void
     add_to(Matrix &sum, const Vector &factors) const;
 
+    /** @brief Whether any node of any rank is massless. */
+    bool
+    moved() const
+    {
+      return any_massless;
+    }
+
     /** @brief The sums of the rows: the mass of each unknown's node, mass. */
     const Vector &
     of_nodes() const
@@ -70,7 +77,7 @@ namespace Touchstone
     /** Empty if all mass is on the diagonal, in nodal. */
     Matrix matrix;
     Vector nodal;
-    bool   diagonal;
+    bool   diagonal, any_massless;
 
     /** Factors of the density of each cell, by its active index, that make up for the
      * moments that massless nodes would change. */

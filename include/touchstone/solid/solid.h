@@ -3,6 +3,7 @@
 #ifndef touchstone_solid_solid_h
 #define touchstone_solid_solid_h
 
+#include <touchstone/algebra/ghost_import.h>
 #include <touchstone/algebra/vector.h>
 #include <touchstone/base/stateful.h>
 #include <touchstone/mesh/forest.h>
@@ -19,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace Touchstone
 {
@@ -98,6 +100,15 @@ namespace Touchstone
     stiffness() const
     {
       return matrix_to_fill();
+    }
+
+    /** @brief Zero, over the owned dofs. Its copies share one layout, so that deal.II assigns them
+     * to each other without messages; between layouts of their own it plans an exchange in each
+     * assignment. */
+    const Vector &
+    zero_vector() const
+    {
+      return zero;
     }
 
     /** @brief A vector over the dofs, with ghosts. Collective. */
@@ -259,6 +270,10 @@ namespace Touchstone
     /** @} */
 
   private:
+    Vector zero;
+    /** Zero, over the relevant dofs, and what fills its copies; empty on one rank. */
+    Vector                     zero_with_ghosts;
+    std::optional<GhostImport> import_ghosts;
     /** Null until it is asked for. */
     mutable std::unique_ptr<Matrix> matrix;
     bool                            any_hanging = false;

@@ -37,7 +37,7 @@ namespace Touchstone
         committed.clear();
         return;
       }
-    reference_positions.reinit(solid.owned, solid.communicator);
+    reference_positions.reinit(solid.zero_vector());
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
     owned_start_positions = reference_positions;
   }

@@ -13,7 +13,7 @@ namespace Touchstone
   BallDepth::BallDepth(const Solid &solid, const BallsInCell &balls)
     : solid(solid)
     , balls(balls)
-    , coordinates(solid.owned, solid.communicator)
+    , coordinates(solid.zero_vector())
   {
     std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
@@ -45,7 +45,7 @@ namespace Touchstone
         known_coordinates.reinit(known_displacement);
         known_coordinates = coordinates;
       }
-    Vector owned(solid.owned, solid.communicator);
+    Vector owned(solid.zero_vector());
     owned              = u;
     known_displacement = owned;
   }

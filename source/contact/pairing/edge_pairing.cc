@@ -174,7 +174,7 @@ namespace Touchstone
       });
       if (Utilities::MPI::max(static_cast<int>(any), input.solid->communicator) == 0)
         return;
-      Vector touches(input.solid->owned, input.solid->communicator);
+      Vector touches(input.solid->zero_vector());
       for (std::size_t k = 0; k < n; ++k)
         if (rows[k].has_partner && rows[k].gap < Tolerances::touching * rows[k].size &&
             !oblique(rows[k]))

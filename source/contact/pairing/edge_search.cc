@@ -110,7 +110,7 @@ namespace Touchstone
   void
   EdgeSearch::hold(const std::vector<std::pair<Index, std::uint64_t>> &keys)
   {
-    Vector owned_part(solid.owned, solid.communicator);
+    Vector owned_part(solid.zero_vector());
     for (const auto &[node, key] : keys)
       owned_part(dim * node) = in_a_double(key);
     owned_part.compress(VectorOperation::insert);
