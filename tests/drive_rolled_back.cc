@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Rolled back, a step leaves nothing: after it results are those before, to the last bit, and the
 // steps that follow are those that follow without it. Of each part with history a scene: contact
-// and friction, points inside slave faces, plasticity, an obstacle that a force moves, pretension.
+// and friction, points inside slave faces, plasticity, an obstacle that a force moves, pretension;
+// and of explicit dynamics, where a signal or an error ends an interval: contact, damping,
+// plasticity, general contact, an obstacle that moves freely; not springs of contact.
 
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/drive/step.h>
 
 #include "drive_support.h"
 #include <fstream>
@@ -27,10 +30,9 @@ namespace
 
   /** All that is written of the present state, on this rank. */
   std::vector<double>
-  figures(const Run &run)
+  figures(const StepState &state)
   {
-    const StepState     state = run.problem.state();
-    const auto         &u     = state.displacement;
+    const auto         &u = state.displacement;
     std::vector<double> result(u.begin(), u.end());
     for (const ContactPoint &point : contact_points(state.contact, u))
       {
@@ -91,7 +93,7 @@ namespace
           {
             if (fails && time == times.back())
               {
-                const std::vector<double> before = figures(run);
+                const std::vector<double> before = figures(run.problem.state());
                 try
                   {
                     run.solve(run.scene.newton, in_vain);
@@ -99,14 +101,14 @@ namespace
                 catch (const NonConvergence &)
                   {
                   }
-                moved = distance(figures(run), before) > 0.;
+                moved = distance(figures(run.problem.state()), before) > 0.;
                 run.problem.rollback();
-                clean = figures(run) == before;
+                clean = figures(run.problem.state()) == before;
               }
             run.solve(run.scene.newton, time);
             run.problem.commit();
           }
-        ends.push_back(figures(run));
+        ends.push_back(figures(run.problem.state()));
       }
     const double difference = Utilities::MPI::max(distance(ends[0], ends[1]), MPI_COMM_WORLD);
     clean                   = Utilities::MPI::min(clean ? 1 : 0, MPI_COMM_WORLD) == 1;
@@ -116,6 +118,67 @@ namespace
         std::cout << name << ": " << (moved ? "" : "NOT MOVED, ")
                   << "rolled back to the bit: " << (clean ? "yes" : "NO");
         print_agreement(difference, 1e-6);
+      }
+  }
+
+
+
+  /** The same of output intervals, of which a checkpoint has what is not written of the state. */
+  void
+  test_explicit(const std::string              &name,
+                const std::string              &text,
+                const std::vector<double>      &times,
+                const double                    in_vain,
+                const std::vector<std::string> &overrides)
+  {
+    std::vector<std::vector<double>> ends;
+    for (const bool fails : {false, true})
+      {
+        std::vector<std::string> all = overrides;
+        all.push_back("Time integration/Scheme=central_differences");
+        const Scene  scene(text, "scene.prm", all);
+        const Forest forest(scene.forest_input(), "", MPI_COMM_WORLD);
+        Solid        solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
+        TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
+        const std::unique_ptr<Step> step = Step::make(scene, forest, solid, timer);
+        const auto                  go   = [&](const double time) {
+          step->solve(time, scene.newton, [](unsigned int, const NewtonState &, int) {});
+        };
+        step->start();
+        for (const double time : times)
+          {
+            if (fails && time == times.back())
+              go(in_vain);
+            // Of the other run nothing is taken back but bounds of the stable step.
+            if (time == times.back())
+              step->rollback();
+            go(time);
+            step->try_commit(0.);
+          }
+        const StepState     state = step->state();
+        const Energies     &of    = state.time_integration.committed_energies();
+        std::vector<double> end   = figures(state);
+        for (const auto *const rate : state.time_integration.rates())
+          end.insert(end.end(), rate->begin(), rate->end());
+        for (const Reaction &reaction : state.reactions())
+          for (unsigned int d = 0; d < dim; ++d)
+            end.push_back(reaction.force[d]);
+        end.insert(end.end(),
+                   {of.kinetic,
+                    of.strain,
+                    of.plastic,
+                    of.contact,
+                    of.friction,
+                    of.damping,
+                    of.external,
+                    of.viscous});
+        ends.push_back(end);
+      }
+    const double difference = Utilities::MPI::max(distance(ends[0], ends[1]), MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        std::cout << "explicit, " << name;
+        print_agreement(difference, std::numeric_limits<double>::min());
       }
   }
 } // namespace
@@ -138,5 +201,32 @@ main(int argc, char **argv)
   test("points", scene_file("small_obstacle_in_face"), {0.5, 0.75}, 1.);
   test("moved by a force", scene_file("pressed_sphere"), {0.5, 0.75}, 1.);
   test("pretension", scene_file("bolted_pretension"), {0.5, 0.75}, 1.);
+
+  const std::vector<std::string> moving = {"Body base/Material/Density=1",
+                                           "Body block/Material/Density=1"};
+  const auto                     with   = [&moving](std::vector<std::string> settings) {
+    settings.insert(settings.end(), moving.begin(), moving.end());
+    return settings;
+  };
+  const std::vector<double> times = {0.5, 0.75, 1.};
+  test_explicit("impulses", blocks, times, 1.1, moving);
+  test_explicit("damping", blocks, times, 1.1, with({"Body base/Material/Rayleigh mass=1"}));
+  // Initial displacements make the block yield: what is lost is in the initial energy, but for what
+  // the shock takes in long cycles.
+  test_explicit("yielding",
+                blocks,
+                times,
+                1.1,
+                with({"Time integration/Courant factor=0.1",
+                      "Body block/Material/Law=finite-strain von Mises",
+                      "Body block/Material/Plasticity/Hardening=linear",
+                      "Body block/Material/Plasticity/Yield stress=5",
+                      "Body block/Material/Plasticity/Hardening modulus=50"}));
+  test_explicit("general contact",
+                blocks.substr(0, blocks.find("subsection Contact pair")),
+                times,
+                1.1,
+                with({"Contact pairs=all"}));
+  test_explicit("obstacle", scene_file("checks/falling_plate"), {0.01, 0.02}, 0.025, {});
   return 0;
 }

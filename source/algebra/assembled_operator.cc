@@ -97,13 +97,6 @@ namespace Touchstone
         return present;
       }
 
-      void
-      forget(const unsigned int node) override
-      {
-        if (changed[node] != none)
-          std::vector<std::pair<int, Block>>().swap(rows[changed[node]]);
-      }
-
     private:
       const Matrix &stiffness;
       const bool    half;

@@ -51,6 +51,19 @@ namespace Touchstone
               break;
           }
     }
+    /** What MPI knows of entries: told once, forgotten with all else at the end of the run. */
+    struct Registered
+    {
+      MPI_Datatype type;
+      MPI_Op       operation;
+
+      Registered()
+      {
+        MPI_Type_contiguous(2, MPI_UINT64_T, &type);
+        MPI_Type_commit(&type);
+        MPI_Op_create(&combine, /*commute=*/1, &operation);
+      }
+    };
   } // namespace
 
 
@@ -89,19 +102,13 @@ namespace Touchstone
     MPI_Comm_size(communicator, &n_ranks);
     if (n_ranks > 1)
       {
-        MPI_Datatype type;
-        MPI_Type_contiguous(2, MPI_UINT64_T, &type);
-        MPI_Type_commit(&type);
-        MPI_Op operation;
-        MPI_Op_create(&combine, /*commute=*/1, &operation);
+        static const Registered entry;
         MPI_Allreduce(MPI_IN_PLACE,
                       entries.data(),
                       static_cast<int>(entries.size()),
-                      type,
-                      operation,
+                      entry.type,
+                      entry.operation,
                       communicator);
-        MPI_Op_free(&operation);
-        MPI_Type_free(&type);
       }
     for (std::size_t k = 0; k < entries.size(); ++k)
       std::memcpy(values[k], &entries[k].bits, sizeof(entries[k].bits));

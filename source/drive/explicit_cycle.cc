@@ -48,8 +48,7 @@ namespace Touchstone
             check_inverted();
             throw ExplicitFailure(impulses->general_contact()->failure(now.time));
           }
-        now.v       = v_before;
-        now.support = support_before;
+        now.v = v_before;
         impulses->tool_nodes().restore();
         cycle(0.5 * length, halved + 1);
         cycle(0.5 * length, halved + 1);
@@ -82,7 +81,6 @@ namespace Touchstone
     const double between = 0.5 * (now.length + length);
     if (!v_before.empty())
       v_before = now.v;
-    support_before = now.support;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       now.v[i] += between / cells.masses()[i] * now.force(i);
     // Damping with the mean of the velocities before and after, which is stable for any factor.

@@ -117,6 +117,7 @@ namespace Touchstone
     if (impulses)
       impulses->rollback();
     cells.rollback();
+    cells.forget();
     work.reset();
     contact.rollback();
   }

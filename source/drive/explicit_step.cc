@@ -194,8 +194,9 @@ namespace Touchstone
     cells.commit();
     if (impulses)
       impulses->tool_nodes().commit();
+    // Initial displacements may have made cells yield, or have hourglass modes: that is there, too.
     committed         = energies();
-    committed.initial = committed.present();
+    committed.initial = committed.present() + committed.plastic + committed.hourglass;
     committed.update_largest();
     contact.update(displacement, 0.);
     contact.commit();

@@ -326,7 +326,6 @@ namespace Touchstone
   {
     springs.rollback();
     tools.rollback();
-    untouched = false;
   }
 
 

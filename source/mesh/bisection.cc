@@ -223,6 +223,36 @@ namespace Touchstone
 
 
 
+    /** The cells of a mesh with their work, that of @p contact_weight for each part of a contact
+     * face.
+     * @param ghosts If ranks compute their ghosts, gets the vertices that tell them; else null. */
+    std::vector<Item>
+    items_of(const Triangulation<dim> &mesh,
+             const CellWork           &cell_work,
+             const CellWork           &contact_work,
+             const double              contact_weight,
+             Ghosts *const             ghosts)
+    {
+      std::vector<Item> items;
+      for (const auto &cell : mesh.active_cell_iterators())
+        {
+          items.push_back(
+            {cell->center(),
+             cell_work(cell) + contact_weight * contact_work(cell) / ContactWork::slave_face,
+             cell->active_cell_index(),
+             ghosts ? 0 : cell_work(cell)});
+          if (ghosts)
+            {
+              ghosts->vertices.emplace_back();
+              for (const unsigned int v : cell->vertex_indices())
+                ghosts->vertices.back()[v] = cell->vertex_index(v);
+            }
+        }
+      return items;
+    }
+
+
+
     /** Which of the coarse cells share a vertex with those that are marked, or are marked. */
     void
     add_neighbours(const BodyMesh &mesh, std::vector<char> &marked)
@@ -359,24 +389,14 @@ namespace Touchstone
       whole.refine_global(refinements);
     // If a coarse cell stands for 8^r refined ones, each of its faces stands for 4^r: per unit of
     // cell work a contact face counts by 4^r / 8^r = 2^-r.
-    const double      faces_of_cell = coarse_cells ? std::pow(0.5, refinements) : 1.;
-    std::vector<Item> items;
-    Ghosts            ghosts;
-    ghosts.part = faces_of_cell; // one of 2^r layers of refined cells
-    for (const auto &cell : whole.active_cell_iterators())
-      {
-        items.push_back({cell->center(),
-                         cell_work(cell) + faces_of_cell * contact_weight * contact_work(cell) /
-                                             ContactWork::slave_face,
-                         cell->active_cell_index(),
-                         computes_ghosts ? 0 : cell_work(cell)});
-        if (computes_ghosts)
-          {
-            ghosts.vertices.emplace_back();
-            for (const unsigned int v : cell->vertex_indices())
-              ghosts.vertices.back()[v] = cell->vertex_index(v);
-          }
-      }
+    const double faces_of_cell = coarse_cells ? std::pow(0.5, refinements) : 1.;
+    Ghosts       ghosts;
+    ghosts.part             = faces_of_cell; // one of 2^r layers of refined cells
+    std::vector<Item> items = items_of(whole,
+                                       cell_work,
+                                       contact_work,
+                                       faces_of_cell * contact_weight,
+                                       computes_ghosts ? &ghosts : nullptr);
     // Of coarse cells a second layer of neighbours is needed for the first one to know which of its
     // faces are at the boundary of the body; a refined mesh is described as a whole.
     Ranks ranks{here,

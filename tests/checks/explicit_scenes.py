@@ -7,7 +7,7 @@ crossings, and scenes that are turned give the results turned (doc/general_conta
 import random
 from math import pi
 
-from touchstone_test import below, check, contact_gives, finish, folder, run
+from touchstone_test import below, check, checks, contact_gives, finish, folder, run
 import crossings  # of tests/, which touchstone_test finds
 from hexahedra import ball, bowl, box, move, ring, turn
 
@@ -187,6 +187,25 @@ for name, (_, _, _, allowed, steps) in SCENES.items():
     below(f"{name}, turned", max((abs(a - b) for body in velocities if body in ways
                                   for a, b in zip(TURNED(velocities[body]), ways[body])), default=1),
           TURNS_TO.get(name, 1e-8))
+
+# Normals that turn from one cycle to the next, also where each cycle is an interval of its own.
+for steps in 4, 240:
+    result = run(f"turning_{steps}", checks / "explicit_turning.prm", {"Load stepping/Steps": steps}, vtu=steps // 4)
+    files = sorted(result.folder.glob("solution_*.vtu"))
+    check(len(files) == 5, f"{result}: {len(files)} results written")
+    for path in files:
+        check(not crossings.find(path), f"{result}: edges have passed through each other in {path.name}")
+check(max(result.column("cycles")) == 1, "turning: more than one cycle in an interval")
+
+# A cycle that is halved takes back what forces have done to an obstacle that they move: one apart from all else.
+WEIGHT = {"Contact pairs": "everything, weight", "Contact pair everything/Slave body": "all", "Obstacles": "weight",
+          "Contact pair weight/Slave body": "b0", "Contact pair weight/Slave boundaries": "all",
+          "Contact pair weight/Obstacle": "weight", "Obstacle weight/Shape": "plane",
+          "Obstacle weight/Point": "0, 0, -50", "Obstacle weight/Direction": "0, 0, 1",
+          "Obstacle weight/Free directions": "z", "Obstacle weight/Mass": 1, "Obstacle weight/Force z": 1}
+result = run("weight", folder / "edge_edge.prm", WEIGHT)
+check(result.value("general_contact", "halvings") > 0, "weight: no cycle is halved")
+below("weight, way", abs(result.column("obstacle weight: displacement z")[-1] - .5), 1e-12)
 
 # Tips that meet edges and inner edges of several faces: each row is on one rank.
 SOONER = {"Load stepping/End time": .25, "Load stepping/Steps": 8}

@@ -148,9 +148,8 @@ namespace Touchstone
     /** Its velocities of supported nodes, by place as in Balance::support. */
     NodeField kept_on_supports;
     NodalWork work;
-    /** Velocity before a cycle (empty if nothing asks for it: no contact, supports or damping),
-     * and forces of supports as in Balance::support. */
-    NodeField v_before, support_before;
+    /** Velocity before a cycle; empty if nothing asks for it: no contact, supports or damping. */
+    NodeField v_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
     double assembled_to_cells = 1.;
     /** Of the supports in the interval so far, as State::support. */

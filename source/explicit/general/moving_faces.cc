@@ -95,6 +95,25 @@ namespace Touchstone
       k[2] = along(end, y);
     }
 
+    /** Coefficients of four corners, each seen from a point that moves as well; and the extent of
+     * all that was seen. */
+    template <class Origin>
+    __attribute__((always_inline)) inline void
+    look(const Origin           &from,
+         const Origin           &to,
+         const MovingCorners    &corners,
+         const TurningDirection &direction,
+         FourNumbers (&k)[3],
+         FourNumbers &extent)
+    {
+      Vectors x, y;
+      seen_from(from, corners.from, x);
+      seen_from(to, corners.to, y);
+      coefficients(direction.start, direction.end, x, y, k);
+      widen(extent, x);
+      widen(extent, y);
+    }
+
     /** The distance at the start, or -1 if it is not more than a part of the extent all the time.
      */
     __attribute__((always_inline)) inline double
@@ -145,18 +164,9 @@ namespace Touchstone
   TwoFaces::distance_in_front(const TurningDirection &direction, const double margin) const
   {
     const double origin[dim] = {other.from[0][0], other.from[1][0], other.from[2][0]};
-    Vectors      x, y;
     FourNumbers  front[3], behind[3], extent = {};
-    seen_from(origin, one.from, x);
-    seen_from(origin, one.to, y);
-    coefficients(direction.start, direction.end, x, y, front);
-    widen(extent, x);
-    widen(extent, y);
-    seen_from(origin, other.from, x);
-    seen_from(origin, other.to, y);
-    coefficients(direction.start, direction.end, x, y, behind);
-    widen(extent, x);
-    widen(extent, y);
+    look(origin, origin, one, direction, front, extent);
+    look(origin, origin, other, direction, behind, extent);
     double in_front[3];
     for (unsigned int k = 0; k < 3; ++k)
       in_front[k] = -most_of(-front[k]) - most_of(behind[k]);
@@ -182,13 +192,8 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED double
   NodeAndFace::distance_in_front(const TurningDirection &direction, const double margin) const
   {
-    Vectors     x, y;
     FourNumbers behind[3], extent = {};
-    seen_from(from, face.from, x);
-    seen_from(to, face.to, y);
-    coefficients(direction.start, direction.end, x, y, behind);
-    widen(extent, x);
-    widen(extent, y);
+    look(from, to, face, direction, behind, extent);
     double in_front[3];
     for (unsigned int k = 0; k < 3; ++k)
       in_front[k] = -most_of(behind[k]);
