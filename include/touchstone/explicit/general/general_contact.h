@@ -63,9 +63,7 @@ namespace Touchstone
 
     /** @brief MirrorPlanes::passed(). Collective. */
     std::string
-    passed_symmetry(const NodeField                &u,
-                    double                          part,
-                    const std::vector<std::string> &bodies) const
+    passed_symmetry(const NodeField &u, double part, const std::vector<std::string> &bodies) const
     {
       return mirror_planes.passed(u, part, bodies);
     }
@@ -591,6 +589,12 @@ namespace Touchstone
      * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
     void
     find_open_faces();
+    /** A pair of a node and a face is looked at with free velocities; and one of a pair of faces is
+     * that may come together in them. */
+    bool
+    counts_ahead(unsigned int pair) const;
+    bool
+    may_ask_ahead(unsigned int pair) const;
     void
     check_faces(const OpenFaces &faces, Kind kind);
     void
