@@ -69,6 +69,33 @@ def read(path):
     return nodes, cells
 
 
+def check_planes(path, mirrored):
+    """A file of VTK does not say where planes of symmetry are, and faces on them would pass for surfaces."""
+    scene = pathlib.Path(path).with_name("parameters.prm")
+    text = scene.read_text(encoding="utf-8") if scene.exists() else ""
+    if not mirrored and re.search(r"^ *set Symmetry *= *[^ #\n]", text, re.M):
+        raise ValueError(f"{scene}: bodies have planes of symmetry: name them in 'mirrored'")
+
+
+def reflected(nodes, cells, axis, place):
+    """Bodies and their mirror images beyond the plane where coordinate @p axis is @p place: faces on the plane
+    are inside then, and normals beside it are those of the whole."""
+    near = 1e-9 * max(abs(x) for _, at in nodes for x in at)
+
+    def image(point):
+        return tuple(2 * place - x if d == axis else x for d, x in enumerate(point))
+
+    def name(node):
+        # Places of nodes on the plane are exact, so that both sides have the same.
+        body, at = node
+        return body, tuple(place if d == axis and abs(x - place) < near else x for d, x in enumerate(at))
+    named = {name(node): x for node, x in nodes.items()}
+    images = {(node[0], image(node[1])): image(x) for node, x in named.items()}
+    turned = (1, 0, 3, 2, 5, 4, 7, 6)
+    both = [tuple(map(name, cell)) for cell in cells]
+    return {**images, **named}, both + [tuple((cell[i][0], image(cell[i][1])) for i in turned) for cell in both]
+
+
 def surface(nodes, cells):
     """Faces that belong to one cell, as (corners, cell)."""
     found = defaultdict(list)
@@ -102,12 +129,15 @@ def moved_inwards(nodes, faces, part, as_promised=False):
     return result
 
 
-def find(path, inset=1.5e-4, as_promised=False, without=lambda x: False):
+def find(path, inset=1.5e-4, as_promised=False, mirrored=()):
     """Places where an edge of a surface passes through a face. At the tips of slender bodies the program
-    promises less than what is looked at, unless @p as_promised. Faces whose corners are all placed
-    @p without are left out: at planes of symmetry there is no surface."""
+    promises less than what is looked at, unless @p as_promised.
+    @param mirrored: planes of symmetry, (axis, coordinate): what is looked at is the whole."""
+    check_planes(path, mirrored)
     nodes, cells = read(path)
-    faces = [face for face in surface(nodes, cells) if not all(without(corner[1]) for corner in face[0])]
+    for axis, place in mirrored:
+        nodes, cells = reflected(nodes, cells, axis, place)
+    faces = surface(nodes, cells)
     at = moved_inwards(nodes, faces, inset, as_promised)
     triangles, edges, lengths = [], {}, []
     for corners, cell in faces:

@@ -23,6 +23,18 @@ namespace Touchstone
 
 
 
+    /** The largest component of what a difference changes by in the whole motion, not less. */
+    double
+    way(const RelativeMotion &motion)
+    {
+      double result = 0.;
+      for (unsigned int i = 0; i < motion.n; ++i)
+        result = std::max(result, largest(motion.end[i] - motion.start[i]));
+      return (1. + 4. * unit_round_off) * result;
+    }
+
+
+
     /** The volume by Bernstein's polynomials on the whole motion, and a bound of its errors. */
     Cubic
     volume(const RelativeMotion &motion, double &error)
@@ -174,8 +186,10 @@ namespace Touchstone
       const double rise = b[3] > 0. ? 1. : -1.;
       if (!(rise * value(b, lower) < -error && rise * value(b, upper) > error))
         return Verdict::unsure;
-      crossing.time    = begin + x * width;
-      const double eta = (16. * unit_round_off + 2. * delta * width) * largest(motion.size);
+      crossing.time = begin + x * width;
+      // Within the window of time the points go on by no more than the window's part of their way.
+      const double eta =
+        16. * unit_round_off * largest(motion.size) + 2. * delta * width * way(motion);
       return inside(motion.at(crossing.time), motion.n, eta, crossing);
     }
   } // namespace

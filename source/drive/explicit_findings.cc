@@ -36,21 +36,39 @@ namespace Touchstone
         "hourglass modes of one-point cells have more than a hundredth of the plastic "
         "work: bodies that flow are too stiff; take the 'Element' 'F-bar', 'Hourglass control' "
         "'viscous', or a finer mesh");
-    if (impulses && impulses->general_contact() != nullptr && crossed.empty())
-      {
-        // The check of motion keeps surfaces apart that are moved inwards a little less.
-        constexpr double  inwards = 3. * GeneralContact::inset;
-        const std::string text =
-          impulses->general_contact()->crossings_at(now.u, inwards, names_of_bodies());
-        char time[60];
-        std::snprintf(time, sizeof(time), "at time %.6g ", now.time);
-        if (!text.empty())
-          crossed = time + ("surfaces of the general contact cross each other, " + text) +
-                    ": what follows is in doubt there; take a finer mesh, or do not cut what folds "
-                    "by a plane of symmetry";
-      }
-    if (!crossed.empty())
-      found.warnings.push_back(crossed);
+    judge_surfaces();
+  }
+
+
+
+  void
+  ExplicitStep::judge_surfaces()
+  {
+    if (!impulses || impulses->general_contact() == nullptr)
+      return;
+    // The check of motion keeps surfaces apart that are moved inwards a little less.
+    constexpr double inwards = 3. * GeneralContact::inset;
+    GeneralContact  &general = *impulses->general_contact();
+    char             time[60];
+    std::snprintf(time, sizeof(time), "at time %.6g ", now.time);
+    if (crossed.empty())
+      if (const std::string text = general.crossings_at(now.u, inwards, names_of_bodies());
+          !text.empty())
+        crossed = time + ("surfaces of the general contact cross each other, " + text) +
+                  ": what follows is in doubt there; take a finer mesh, or do not cut what folds "
+                  "by a plane of symmetry";
+    if (mirrored.empty())
+      if (const std::string text = general.passed_symmetry(now.u, inwards, names_of_bodies());
+          !text.empty())
+        mirrored =
+          time + text +
+          ", where its mirror image is: nothing keeps them apart, and what follows is wrong "
+          "if that boundary is a plane of symmetry (on rollers it may go on beyond it); let "
+          "an obstacle of 'Shape = plane' stand in that plane, with a contact pair of its "
+          "own, or do not cut the body";
+    for (const std::string *const text : {&crossed, &mirrored})
+      if (!text->empty())
+        found.warnings.push_back(*text);
   }
 
 

@@ -160,6 +160,24 @@ namespace Touchstone
   {
     for (unsigned int i = 0; i < n; ++i)
       store_four(load_four(free[i]) + load_four(mobility[i]) * load_four(sums[i]), velocity[i]);
+    add_oblique(n);
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
+  NormalRows::respond(const unsigned int n)
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      store_four(load_four(mobility[i]) * load_four(sums[i]), velocity[i]);
+    add_oblique(n);
+  }
+
+
+
+  void
+  NormalRows::add_oblique(const unsigned int n)
+  {
     if (any_oblique)
       for (unsigned int i = 0; i < n; ++i)
         {
@@ -168,6 +186,25 @@ namespace Touchstone
           velocity[i].c[1] += o[2] * s[0] + o[0] * s[2];
           velocity[i].c[2] += o[1] * s[0] + o[0] * s[1];
         }
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
+  NormalRows::along_normals(std::vector<double> &result) const
+  {
+    result.resize(size());
+    double *const       to = result.data();
+    const Vector *const v = velocity.data(), *of = entries.data();
+    const unsigned int *node = nodes.data();
+    for (unsigned int i = 0; i < size(); ++i)
+      {
+        Four sum = {};
+        for (const unsigned int *const next = nodes.data() + rows[i + 1].first; node != next;
+             ++node, ++of)
+          sum += load_four(*of) * load_four(v[*node]);
+        to[i] = sum[0] + sum[1] + sum[2];
+      }
   }
 
 

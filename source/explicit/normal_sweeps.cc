@@ -151,18 +151,6 @@ namespace Touchstone
 
 
 
-  void
-  ImpulseSolver::take_impulses()
-  {
-    for (unsigned int i = 0; i < normal_rows.size(); ++i)
-      {
-        NormalRows::Row &row = normal_rows.rows[i];
-        row.impulse = row.extrapolated = row.present = rows[row.row].impulse * rows[row.row].normal;
-      }
-  }
-
-
-
   bool
   ImpulseSolver::turned(const double (&largest)[2]) const
   {
@@ -189,9 +177,7 @@ namespace Touchstone
       {
         if (control.accelerate && until-- == 0)
           {
-            put_impulses();
-            explore_face(control, tolerance, counts);
-            take_impulses();
+            explore_normal_face(control, tolerance, counts);
             momentum = 1.;
             until    = between_explorations;
           }

@@ -67,6 +67,7 @@ namespace Touchstone
           continue;
         ImpactSurfaceInput::Boundaries &of = input.bodies[b];
         of.all_but                         = general.all_boundaries();
+        of.symmetry = forest.boundaries(b, body.symmetry, body.section(), "Symmetry");
         // What lies beyond a plane of symmetry is the mirrored half of the body.
         of.ids =
           of.all_but

@@ -171,8 +171,9 @@ namespace Touchstone
     std::vector<ObliqueContact> oblique, oblique_now;
     /** Why such a contact ends the run, if it does. */
     std::string persistent;
-    /** Where surfaces of general contact have crossed first, for a warning. */
-    std::string crossed;
+    /** Where surfaces of general contact have crossed first, and passed through their plane of
+     * symmetry, for warnings. */
+    std::string crossed, mirrored;
     /** Half a cycle's work of moving obstacles at the committed state, and what contact springs
      * hold at present; force times length. */
     double obstacles_ahead = 0., obstacles_ahead_now = 0., held_by_springs = 0.;
@@ -227,6 +228,9 @@ namespace Touchstone
     /** Set the warnings on the state at the end of an interval. Collective. */
     void
     judge();
+    /** Those of surfaces of general contact. Collective. */
+    void
+    judge_surfaces();
     /** Watch for directions of contact forces that are not right, in an interval of this length.
      * Collective. */
     void

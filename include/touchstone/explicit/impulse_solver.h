@@ -255,8 +255,13 @@ namespace Touchstone
     finish_normal();
     void
     put_impulses();
+    /** Set velocities of the nodes to what impulses change them by. */
     void
-    take_impulses();
+    respond_normal(double NormalRows::Row::*impulse);
+    void
+    explore_normal_face(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    /** Its vectors by row. */
+    std::vector<double> along, scaled;
     /** @} */
     /** Conjugate gradients from the present impulses on. */
     void

@@ -88,6 +88,14 @@ namespace Touchstone
     void
     move(unsigned int n);
 
+    /** @brief The same without those that are there without impulses. */
+    void
+    respond(unsigned int n);
+
+    /** @brief Relative velocities of the rows, without the drive. */
+    void
+    along_normals(std::vector<double> &result) const;
+
     /** @brief Relative velocity of a row, without the drive. */
     double
     relative_velocity(unsigned int i) const;
@@ -106,6 +114,10 @@ namespace Touchstone
      * sum of whole numbers does not depend on their order. */
     std::int64_t
     turn(double unit) const;
+
+  private:
+    void
+    add_oblique(unsigned int n);
   };
 } // namespace Touchstone
 

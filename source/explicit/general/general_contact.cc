@@ -48,6 +48,7 @@ namespace Touchstone
     : parameters(parameters)
     , nodes(nodes)
     , surface(input, solid, nodes)
+    , mirror_planes(input, solid, surface, nodes)
     , candidates(surface, nodes, solid.owned, parameters.search.name)
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)

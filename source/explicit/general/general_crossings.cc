@@ -89,6 +89,8 @@ namespace Touchstone
     open_faces.clear();
     for (const unsigned int number : near_pairs)
       {
+        if (looks_ahead && !may_ask_ahead(number))
+          continue;
         const ContactCandidates::FacePair &pair = candidates.face_pairs[number];
         const MovingCorners &one = inner_corners[pair.one], &other = inner_corners[pair.other];
         const double         size = std::max(one.size, other.size);
@@ -98,6 +100,27 @@ namespace Touchstone
         else
           face_limits.set(number, apart_faces[number].until);
       }
+  }
+
+
+
+  // A node of the finer side, or one that has pressed lately, that has no row yet.
+  bool
+  GeneralContact::counts_ahead(const unsigned int i) const
+  {
+    return !touches[i] && (is_slave(i) || presses_often(candidates.node_faces[i].node));
+  }
+
+
+
+  bool
+  GeneralContact::may_ask_ahead(const unsigned int pair) const
+  {
+    const auto &[begin, of_pairs] = candidates.nodes_by_faces;
+    for (unsigned int i = begin[pair]; i < begin[pair + 1]; ++i)
+      if (!(apart_nodes[of_pairs[i]].until > travelled + travels) && counts_ahead(of_pairs[i]))
+        return true;
+    return false;
   }
 
 
@@ -122,8 +145,7 @@ namespace Touchstone
     else if (kind == Kind::slave_node || kind == Kind::node)
       each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &known) {
         const ContactCandidates::NodeFace &one = candidates.node_faces[i];
-        const bool first = is_slave(i) || (looks_ahead && presses_often(one.node));
-        if (first == (kind == Kind::slave_node) && !(looks_ahead && touches[i]))
+        if (looks_ahead ? counts_ahead(i) : is_slave(i) == (kind == Kind::slave_node))
           check_node({one.node, false}, one.face, faces, known);
       });
   }

@@ -8,6 +8,7 @@
 #include <touchstone/explicit/general/contact_candidates.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/explicit/general/general_results.h>
+#include <touchstone/explicit/general/mirror_planes.h>
 #include <touchstone/explicit/general/moving_faces.h>
 #include <touchstone/explicit/general/travel_limits.h>
 #include <touchstone/explicit/impulse_solver.h>
@@ -59,6 +60,13 @@ namespace Touchstone
      * @param inwards By so much of the size of faces surfaces are moved inwards. */
     std::string
     crossings_at(const NodeField &u, double inwards, const std::vector<std::string> &bodies);
+
+    /** @brief MirrorPlanes::passed(). Collective. */
+    std::string
+    passed_symmetry(const NodeField &u, double part, const std::vector<std::string> &bodies) const
+    {
+      return mirror_planes.passed(u, part, bodies);
+    }
 
     /** @brief A row that is closed too far: a node within another body, or two edges that have
      * passed each other. */
@@ -252,6 +260,7 @@ namespace Touchstone
     const GeneralContactParameters &parameters;
     const NodeMap                  &nodes;
     ImpactSurface                   surface;
+    MirrorPlanes                    mirror_planes;
     ContactCandidates               candidates;
     std::optional<FrictionRow>      friction;
     /** Size of the smallest faces, length; and the part of it that the margin has at least. */
@@ -580,6 +589,12 @@ namespace Touchstone
      * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
     void
     find_open_faces();
+    /** A pair of a node and a face is looked at with free velocities; and one of a pair of faces is
+     * that may come together in them. */
+    bool
+    counts_ahead(unsigned int pair) const;
+    bool
+    may_ask_ahead(unsigned int pair) const;
     void
     check_faces(const OpenFaces &faces, Kind kind);
     void

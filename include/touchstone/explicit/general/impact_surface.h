@@ -22,6 +22,8 @@ namespace Touchstone
     {
       bool        all_but = false;
       BoundaryIds ids;
+      /** Those of each entry of 'Symmetry', if the body takes part. */
+      std::vector<BoundaryIds> symmetry;
     };
     std::vector<Boundaries> bodies;
     /** Boundaries that a declared pair brings together: for general contact they do not exist for
