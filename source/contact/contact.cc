@@ -37,7 +37,8 @@ namespace Touchstone
       {
         pairs.push_back(std::make_unique<ContactPair>(input));
         pairs.back()->number_rows(frictions.size());
-        for (FrictionRow &row : pairs.back()->friction_rows(mirrors, parameters))
+        pairs.back()->set_planes_of_symmetry(mirrors);
+        for (FrictionRow &row : pairs.back()->friction_rows(parameters))
           frictions.push_back(std::move(row));
       }
     friction_rows.reinit(std::move(frictions));
@@ -149,7 +150,7 @@ namespace Touchstone
   Contact::remove_junction_rows(const Vector &u)
   {
     std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
-    held_of_pairs                      = held_nodes(pairs, supports, mirrors, solid);
+    held_of_pairs                      = held_nodes(pairs, supports, solid);
     for (std::size_t p = 0; p < pairs.size(); ++p)
       nodes[p].insert(held_of_pairs[p].begin(), held_of_pairs[p].end());
     for (std::size_t p = 0; p < pairs.size(); ++p)

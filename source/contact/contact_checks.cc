@@ -65,7 +65,7 @@ namespace Touchstone
               pair.master_body(),
               contact.ghosted_displacement(),
               forces,
-              contact.planes_of_symmetry()};
+              pair.planes_of_symmetry()};
     }
 
 

@@ -157,28 +157,51 @@ namespace Touchstone
 
 
 
+  void
+  ContactPair::set_planes_of_symmetry(const Mirrors &of_nodes)
+  {
+    const auto add_planes = [&](const Surface &surface, const SharedSymmetry &symmetry) {
+      for (const SurfaceNode &node : surface.owned_nodes())
+        if (const auto found = of_nodes.find(node.node); found != of_nodes.end())
+          {
+            std::vector<Tensor<1, dim>> shared;
+            std::copy_if(found->second.begin(),
+                         found->second.end(),
+                         std::back_inserter(shared),
+                         [&](const Tensor<1, dim> &plane) { return symmetry.holds(node, plane); });
+            if (!shared.empty())
+              planes[node.node] = shared;
+          }
+    };
+    planes.clear();
+    if (!master_surface)
+      {
+        add_planes(*slave_surface, SharedSymmetry(*pairing_method, *input.obstacle, input.run_end));
+        return;
+      }
+    // Each side has planes of its own, and asks for those of the other.
+    const MPI_Comm communicator = input.solid.communicator;
+    add_planes(*slave_surface, SharedSymmetry(*master_surface, of_nodes, communicator));
+    add_planes(*master_surface, SharedSymmetry(*slave_surface, of_nodes, communicator));
+  }
+
+
+
   std::vector<FrictionRow>
-  ContactPair::friction_rows(const Mirrors &mirrors, const ContactParameters &contact) const
+  ContactPair::friction_rows(const ContactParameters &contact) const
   {
     std::vector<FrictionRow> result(present.size());
     if (!input.parameters.friction)
       return result;
     const std::vector<std::array<Stencil, 2>> tangents = slave_surface->material_tangents();
     const std::vector<SurfaceNode>           &nodes    = slave_surface->owned_nodes();
-    const SharedSymmetry                      symmetry =
-      master_surface ? SharedSymmetry(*master_surface, mirrors, input.solid.communicator)
-                                          : SharedSymmetry(*pairing_method, *input.obstacle, input.run_end);
     for (std::size_t k = 0; k < result.size(); ++k)
       {
         FrictionRow &row = result[k];
         row.law          = input.parameters.friction.get();
         // Rows between nodes follow those of the nodes.
-        const SurfaceNode &node = nodes[k % nodes.size()];
-        if (const auto found = mirrors.find(node.node); found != mirrors.end())
-          std::copy_if(found->second.begin(),
-                       found->second.end(),
-                       std::back_inserter(row.mirrors),
-                       [&](const Tensor<1, dim> &plane) { return symmetry.holds(node, plane); });
+        if (const auto found = planes.find(nodes[k % nodes.size()].node); found != planes.end())
+          row.mirrors = found->second;
         row.material_tangents = tangents[k % tangents.size()];
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);

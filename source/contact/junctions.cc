@@ -174,7 +174,6 @@ namespace Touchstone
   std::vector<std::set<Index>>
   held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
              const ContactPair::Mirrors                      &supports,
-             const ContactPair::Mirrors                      &mirrors,
              const Solid                                     &solid)
   {
     std::vector<std::set<Index>> result(pairs.size());
@@ -183,7 +182,7 @@ namespace Touchstone
       for (const ContactRow &row : pairs[p]->rows())
         if (row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size) &&
             free_part(row.normal, row.slave, supports) < no_part &&
-            free_part(row.normal, row.slave, mirrors) > no_part)
+            free_part(row.normal, row.slave, pairs[p]->planes_of_symmetry()) > no_part)
           for (const StencilEntry &entry : row.stencil)
             mine.push_back({p, row.slave, entry.node, std::abs(entry.weight), row.normal});
     const std::vector<Facing> all = gather_all(mine, solid.communicator);

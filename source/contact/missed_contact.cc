@@ -38,13 +38,13 @@ namespace Touchstone
   MissedContact::find_planes_of_symmetry()
   {
     const MPI_Comm communicator = contact.communicator();
-    if (Utilities::MPI::max(contact.planes_of_symmetry().size(), communicator) == 0)
+    if (Utilities::MPI::max(pair.planes_of_symmetry().size(), communicator) == 0)
       return;
     // A node may lie on two, and with a third one no normal is left.
     for (unsigned int k = 0; k < 2; ++k)
       {
         Vector normals(contact.solid_model().owned, communicator);
-        for (const auto &[node, planes] : contact.planes_of_symmetry())
+        for (const auto &[node, planes] : pair.planes_of_symmetry())
           if (planes.size() > k)
             {
               // Orthogonal to each other.
@@ -107,15 +107,18 @@ namespace Touchstone
       {
         for (unsigned int d = 0; d < dim; ++d)
           result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
-        // Averaged with the faces beyond a plane of symmetry normals lie in it. Otherwise facets
-        // beside it would seem to have half of their arc.
+        // Averaged with the faces beyond a plane of symmetry of the pair normals lie in it, unless
+        // the body has a sharp edge there. Otherwise facets beside it would seem to have half of
+        // their arc.
         Tensor<1, dim> normal = result.normals[m];
         for (const Vector &planes : planes_of_nodes)
           {
             Tensor<1, dim> plane;
             for (unsigned int d = 0; d < dim; ++d)
               plane[d] = planes(dim * face.nodes[m] + d);
-            normal -= (normal * plane) * plane;
+            // The cosine to the normal beyond the plane.
+            if (1. - 2. * std::pow(normal * plane, 2) > Tolerances::sharp_edge_cosine)
+              normal -= (normal * plane) * plane;
           }
         if (const double length = normal.norm(); length > Tolerances::perpendicular_cosine)
           result.normals[m] = normal / length;

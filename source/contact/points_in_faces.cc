@@ -157,7 +157,7 @@ namespace Touchstone
             const bool possible = flags(first + carries) == 0. && flags(first + refused) == 0. &&
                                   (own || flags(first + taken) == 0.);
             // On a plane of symmetry a row has no friction across, which the point has.
-            const bool on_plane = contact.planes_of_symmetry().count(point.nodes[a]) > 0;
+            const bool on_plane = pair.planes_of_symmetry().count(point.nodes[a]) > 0;
             free[a]             = possible ? (on_plane ? 1 : 2) : 0;
           }
       std::vector<int> all(free.begin(), free.end());

@@ -310,9 +310,9 @@ namespace Touchstone
           continue;
         // Forces of neighbours are summed: on both sides of a sharp edge of the master each
         // of them is oblique and their sum is right (doc/theory.md 4.1).
-        const SurfaceCone cone(slave, node.node);
-        Tensor<1, dim>    around;
-        bool              largest = true;
+        SurfaceCone    cone(slave, node.node);
+        Tensor<1, dim> around;
+        bool           largest = true;
         for (const Index other : cone.nodes())
           {
             around += nodal_value(forces, other);
@@ -321,7 +321,10 @@ namespace Touchstone
         // On a plane of symmetry what the mirrored half has is part of the sum, and cancels it
         // across the plane.
         if (const auto planes = mirrors.find(node.node); planes != mirrors.end())
-          around = along_all(planes->second, around);
+          {
+            around = along_all(planes->second, around);
+            cone.mirror(planes->second);
+          }
         // Only the largest force of a neighbourhood tells where the bodies touch.
         if (largest && around.norm() >= Tolerances::small_force * sum &&
             cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)

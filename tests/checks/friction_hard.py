@@ -51,6 +51,18 @@ for pairing in "averaged", "pointwise":
         below(f"{result}, sleeve", relative(result.force("fit")[2], answer.force("fit")[2]), 1e-6)
 same(answer, run("rollers_2_ranks", rollers, {**settings, **prescribed}, ranks=2), 1e-8)
 
+# Rollers that are oblique to the contact face of their body: the force on the edge is normal to the face, and what presses
+# on the inside of a face beside it is met. With the same plane in the punch, too, it is a plane of symmetry, and the bodies
+# have ridges there.
+oblique, ball = checks / "oblique_roller.prm", checks / "oblique_roller_ball.prm"
+ridge = {"Body punch/Symmetry": "left", "Body punch/Boundary back/Displacement x": "-0.007*t",
+         "Body punch/Geometry/Corners": "0.7, 1, -0.2; 0.78, 1, -0.2; 1.06, 1.4, -0.2; 0.98, 1.4, -0.2"}
+forces = [run(f"oblique_{name}", oblique, settings).force("contact")[1] for name, settings in (("roller", {}), ("ridge", ridge))]
+below(f"punch on an oblique roller and on a ridge, forces {forces}", relative(*forces), 0.05)
+forces = [run(f"oblique_ball_{number}", ball, {"Body block/Symmetry": supports}).force("contact")[1]
+          for number, supports in enumerate(("left, front, bottom, right", "front, bottom, right"))]
+below(f"ball beside an oblique roller, forces {forces} with it and without", relative(*forces), 0.1)
+
 # Supports hold 13 slave nodes of a ring that stick, on 7 master nodes: no solution, and the log says
 # why.
 ring = run("ring", checks / "friction_ring.prm", fails=True)

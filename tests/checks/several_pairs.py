@@ -277,6 +277,36 @@ patch("five_rough", FIVE, rough(7), pressure=False, ranks=2)
 patch("t_joint_tied", T_JOINT, settings(tied(8), OUTER), pressure=False)
 patch("t_joint_rough", T_JOINT, rough(8, 0.1), pressure=False)
 
+# Beside driven faces supports determine most of what rows say along the surface, and the few nodes that are free follow the
+# bodies: such rows neither slide nor stick, and converge with solvers that leave a slip.
+def laws(**of_pairs):
+    """Laws by the names of pairs: a coefficient of friction, or 'tied'."""
+    values = {}
+    for pair, law in of_pairs.items():
+        values.update({f"Contact pair {pair}/Behaviour": "tied"} if law == "tied" else
+                      {f"Contact pair {pair}/Behaviour": "coulomb", f"Contact pair {pair}/Friction/Coefficient": law})
+    return values
+
+
+HELD_STICK = partition("held_stick.prm", [
+    ((0, 0, 0.45), (2, 0.8, 1.5), "1, 2, 1"), ((0, 0.8, 0.45), (1, 2, 1.5), "3, 1, 3"),
+    ((1, 0.8, 0.45), (2, 2, 1.5), "2, 3, 3"), ((0, 0, 0), (1, 2, 0.45), "3, 2, 1"), ((1, 0, 0), (2, 2, 0.45), "2, 3, 2")],
+    [(0, "back", 1), (0, "back", 2), (1, "right", 2), (0, "bottom", 3), (1, "bottom", 3), (3, "right", 4), (4, "top", 0),
+     (4, "top", 2)])
+LAWS_HELD = laws(a=0.7, b="tied", c=0.3, d="tied", e="tied", f=0.05, h=0.05)
+for name, further, n_ranks in (("mumps", {}, 1), ("gmres", GMRES, 2)):
+    result = patch(f"held_stick_{name}", HELD_STICK, settings(LAWS_HELD, further), pressure=False, ranks=n_ranks)
+    below(f"{result}, Newton iterations", result.iterations(), 10.5)
+# Rows that stick in a cycle of pairs keep their conditions along the normal.
+CYCLE_OF_STICK = partition("cycle_of_stick.prm", [
+    ((0, 0, 0), (2, 0.6, 1.5), "3, 2, 1"), ((0, 0.6, 0), (0.66, 2, 1.5), "1, 1, 2"), ((0.66, 0.6, 0), (2, 1.16, 1.5), "1, 3, 2"),
+    ((0.66, 1.16, 0), (2, 2, 0.45), "2, 2, 2"), ((0.66, 1.16, 0.45), (2, 2, 1.5), "1, 1, 3")],
+    [(1, "front", 0), (0, "back", 2), (1, "right", 2), (3, "left", 1), (4, "left", 1), (2, "back", 3), (2, "back", 4),
+     (4, "bottom", 3)])
+for name, further, n_ranks in (("mumps", {}, 2), ("augmented", settings(OUTER), 1)):
+    patch(f"cycle_of_stick_{name}", CYCLE_OF_STICK, settings(laws(b="tied", f=1, g=0.3, h="tied"), further),
+          pressure=False, ranks=n_ranks)
+
 # A surface that is driven is slave: the master gives way, as it does with the roles exchanged. Meshes
 # match, so that pointwise rows say the same with either role.
 def rib(name, slave, master, support):

@@ -97,7 +97,8 @@ namespace Touchstone
       return held_of_pairs[p];
     }
 
-    /** @brief Normals of the planes of symmetry that owned nodes lie on. */
+    /** @brief Normals of the planes of 'Symmetry' that owned nodes lie on, those that are none of
+     * what the body touches among them; see ContactPair::planes_of_symmetry(). */
     const Mirrors &
     planes_of_symmetry() const
     {

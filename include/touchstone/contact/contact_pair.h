@@ -206,10 +206,22 @@ namespace Touchstone
     /** Normals of the planes of symmetry that nodes lie on. */
     using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
 
-    /** @brief The constants of the friction of each row.
-     * @param mirrors Of owned nodes, by node. Collective. */
+    /** @brief Choose those planes that are planes of symmetry of the pair, see SharedSymmetry.
+     * @param of_nodes All that owned nodes lie on. Collective. */
+    void
+    set_planes_of_symmetry(const Mirrors &of_nodes);
+
+    /** @brief Normals of the planes of symmetry of the pair that owned nodes of its surfaces lie
+     * on. Other planes support a body as rollers do. */
+    const Mirrors &
+    planes_of_symmetry() const
+    {
+      return planes;
+    }
+
+    /** @brief The constants of the friction of each row. */
     std::vector<FrictionRow>
-    friction_rows(const Mirrors &mirrors, const ContactParameters &contact) const;
+    friction_rows(const ContactParameters &contact) const;
 
     /**
      * @brief Update the rows to a displacement. Collective.
@@ -284,6 +296,7 @@ namespace Touchstone
     std::unique_ptr<PointRows> point_rows;
     std::vector<ContactRow>    present, committed;
     std::vector<MaterialPoint> points_before;
+    Mirrors                    planes;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
     std::vector<ContactRow> reference;

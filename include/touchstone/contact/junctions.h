@@ -35,15 +35,13 @@ namespace Touchstone
    * points, either.
    *
    * @param pairs    After an update.
-   * @param supports Directions in which displacements of owned nodes are prescribed.
-   * @param mirrors  Those among them that are normals of planes of symmetry: these hold nodes as
-   *                 the mirrored half of the body would.
+   * @param supports Directions in which displacements of owned nodes are prescribed; planes of
+   *                 symmetry of the pair hold nodes as the mirrored half of the body would.
    * @return By pair; the same on all ranks. Collective.
    */
   std::vector<std::set<Index>>
   held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
              const ContactPair::Mirrors                      &supports,
-             const ContactPair::Mirrors                      &mirrors,
              const Solid                                     &solid);
 } // namespace Touchstone
 

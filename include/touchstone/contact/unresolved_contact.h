@@ -27,7 +27,7 @@ namespace Touchstone
     /** @param u      Displacement, with ghosts.
      * @param forces  Normal contact forces of the pair on its slave nodes, with the ghosts
      *                of the slave surface.
-     * @param mirrors Normals of the planes of symmetry that owned nodes lie on. */
+     * @param mirrors Normals of the planes of symmetry of the pair that owned nodes lie on. */
     UnresolvedContact(const Solid                 &solid,
                       const ContactPairParameters &parameters,
                       const Surface               &slave,

@@ -66,19 +66,18 @@ namespace Touchstone
      * in any case: no largest component of a unit normal is below the threshold).
      * @param free The part of the normal that the slave node can move along.
      * @param own_body The stencil is of the body of the slave node.
+     * @param fully A row that sticks or is tied determines all components of its node by all
+     * components of the stencil.
      * @param threshold Smaller coefficients do not count. */
     Dependence
     dependence(const ContactRow     &row,
-               const RowState       &state,
                const Tensor<1, dim> &free,
+               const bool            fully,
                const double          threshold,
                const bool            own_body)
     {
       Dependence           result{row.slave, {}, {}, row.reference};
       const Tensor<1, dim> all({1., 1., 1.});
-      // A row that sticks or is tied determines all components of its node by all components of the
-      // stencil.
-      const bool fully = state.fully_constrained();
       if (fully)
         add_components(row.slave, all, threshold, result.dofs);
       else
@@ -337,49 +336,94 @@ namespace Touchstone
 
 
 
-  std::vector<bool>
-  CyclicConstraints::redundant_rows(const Contact         &contact,
-                                    const ConstraintGraph &graph,
-                                    const double           threshold) const
+  /** The parameters of a search, and what has been kept so far. */
+  struct CyclicConstraints::Search
+  {
+    const Contact          &contact;
+    const ConstraintGraph  &graph;
+    const double            threshold;
+    std::vector<Dependence> kept;
+
+    /** Dependences of rows of a pair. @param stick Of those that stick, all; else of tied rows all,
+     * and of others that along the normal. */
+    std::vector<Dependence>
+    of_pair(const unsigned int p, const bool stick, const std::vector<bool> &left_out) const
+    {
+      std::vector<Dependence> result;
+      const bool              own_body = contact.pair(p).parameters().of_one_body();
+      for (const ContactRow &row : contact.pair(p).rows())
+        {
+          const RowState      &state = contact.state(row);
+          const Tensor<1, dim> free  = graph.free_part(row.slave, row.normal);
+          // A normal that supports determine is refused by the graph in any case (bound 1e-3,
+          // doc/theory.md 6).
+          if (!state.active() || left_out[row.index] || free.norm() < 1e-3 ||
+              (stick && (row.tied || !state.fully_constrained())))
+            continue;
+          result.push_back(dependence(row, free, stick || row.tied, threshold, own_body));
+        }
+      return result;
+    }
+
+    /** Keep the rows of a pair that close no cycle with those that have been kept. @return The
+     * slave nodes of the others. Collective. */
+    std::set<Index>
+    keep(const unsigned int p, std::vector<Dependence> mine)
+    {
+      const IndexSet &owned        = contact.solid_model().owned;
+      const MPI_Comm  communicator = contact.communicator();
+      const bool      own_body     = contact.pair(p).parameters().of_one_body();
+      // Dependencies between slave nodes of the same pair, which averaged normals and weights
+      // make, are handled by the enforcement, see Elimination::adjust().
+      if (!own_body)
+        leave_out_own_slaves(mine, owned, communicator);
+      std::vector<Dependence> ends(kept), of_pair(mine);
+      leave_out_ends(ends, of_pair, owned, communicator);
+      ends    = gather(ends, communicator);
+      of_pair = gather(of_pair, communicator);
+      std::vector<Dependence> all(ends);
+      all.insert(all.end(), of_pair.begin(), of_pair.end());
+      const std::set<Index> cycle = own_body ? closing_cycles(ends, of_pair) : in_cycles(all);
+      for (const Dependence &d : mine)
+        if (cycle.count(d.slave) == 0)
+          kept.push_back(d);
+      return cycle;
+    }
+  };
+
+
+
+  CyclicConstraints::Redundant
+  CyclicConstraints::find(const Contact         &contact,
+                          const ConstraintGraph &graph,
+                          const double           threshold) const
   {
     // Pair by pair: all rows of this pair that lie on a cycle together with the rows kept of
-    // earlier pairs are dropped, and not only as many as would break the cycles. So the result
+    // earlier pairs are redundant, and not only as many as would break the cycles. So the result
     // does not depend on the order of the nodes, which depends on the partition.
-    std::vector<bool>       redundant(contact.rows().size(), false);
-    std::vector<Dependence> kept;
-    const IndexSet         &owned        = contact.solid_model().owned;
-    const MPI_Comm          communicator = contact.communicator();
+    const std::size_t n_rows = contact.rows().size();
+    Redundant         result{std::vector<bool>(n_rows, false), std::vector<bool>(n_rows, false)};
+    Search            search{contact, graph, threshold, {}};
     for (const unsigned int p : cyclic)
       {
-        std::vector<Dependence> mine;
-        const bool              own_body = contact.pair(p).parameters().of_one_body();
-        for (const ContactRow &row : contact.pair(p).rows())
-          {
-            const RowState      &state = contact.state(row);
-            const Tensor<1, dim> free  = graph.free_part(row.slave, row.normal);
-            // A normal that supports determine is refused by the graph in any case (bound 1e-3,
-            // doc/theory.md 6).
-            if (state.active() && !(free.norm() < 1e-3))
-              mine.push_back(dependence(row, state, free, threshold, own_body));
-          }
-        // Dependencies between slave nodes of the same pair, which averaged normals and weights
-        // make, are handled by the enforcement, see Elimination::adjust().
-        if (!own_body)
-          leave_out_own_slaves(mine, owned, communicator);
-        std::vector<Dependence> kept_ends(kept), of_pair(mine);
-        leave_out_ends(kept_ends, of_pair, owned, communicator);
-        kept_ends = gather(kept_ends, communicator);
-        of_pair   = gather(of_pair, communicator);
-        std::vector<Dependence> all(kept_ends);
-        all.insert(all.end(), of_pair.begin(), of_pair.end());
         const std::set<Index> cycle =
-          own_body ? closing_cycles(kept_ends, of_pair) : in_cycles(all);
-        for (const Dependence &d : mine)
-          if (cycle.count(d.slave) == 0)
-            kept.push_back(d);
+          search.keep(p, search.of_pair(p, /*stick=*/false, result.rows));
         for (const ContactRow &row : contact.pair(p).rows())
-          redundant[row.index] = contact.state(row).active() && cycle.count(row.slave) > 0;
+          result.rows[row.index] = contact.state(row).active() && cycle.count(row.slave) > 0;
       }
-    return redundant;
+    // Then stick, beside all that keeps the bodies apart.
+    for (const unsigned int p : cyclic)
+      {
+        const std::vector<Dependence> stick   = search.of_pair(p, /*stick=*/true, result.rows);
+        const int                     n_stick = stick.size();
+        if (Utilities::MPI::max(n_stick, contact.communicator()) == 0)
+          continue;
+        const std::set<Index> cycle = search.keep(p, stick);
+        for (const ContactRow &row : contact.pair(p).rows())
+          result.stick[row.index] = !row.tied && !result.rows[row.index] &&
+                                    contact.state(row).fully_constrained() &&
+                                    cycle.count(row.slave) > 0;
+      }
+    return result;
   }
 } // namespace Touchstone

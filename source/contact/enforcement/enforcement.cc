@@ -5,10 +5,10 @@
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/enforcement/undetermined_stick.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
-#include <map>
 
 // What all enforcements share: they own status and force of each row and lead these through the
 // Newton iteration (recover, enforce, add_friction, update), its line search (shorten), and the
@@ -71,44 +71,16 @@ namespace Touchstone
 
 
   void
-  Enforcement::find_shared_nodes(const Contact &contact, const ConstraintGraph &supports)
-  {
-    // Against an obstacle only the slave node can move. Where supports or other active rows
-    // determine its tangential displacement, any force within the cone is in equilibrium, and how
-    // it is divided would depend on the enforcement and on the path of the iteration. There the
-    // elastic slip determines it (doc/theory.md 6, "Stick at the edge of two obstacles").
-    //
-    // Rows of the node are counted over all pairs, with those that are open by less than the size
-    // of a face: the formulation of friction must not change with the active set, or the active
-    // set of each formulation could lead to the other one.
-    std::map<Index, unsigned int> n_near;
-    for (const ContactRow &row : contact.rows())
-      n_near[row.slave] += (row.has_partner && row.gap < row.size);
-
-    // Up to round-off a tangent of unit length keeps its length if it is free.
-    constexpr double free_length = 1. - 1e-6;
-    for (const ContactRow &row : contact.rows())
-      if (row.friction)
-        {
-          const std::vector<Tensor<1, dim>> &tangents = row.friction->kinematics.tangents;
-          row_states[row].friction.shared =
-            !contact.pair(row).master() &&
-            (n_near[row.slave] > 1 ||
-             std::any_of(tangents.begin(), tangents.end(), [&](const Tensor<1, dim> &tangent) {
-               return supports.free_part(row.slave, tangent).norm() < free_length;
-             }));
-        }
-  }
-
-
-
-  void
   Enforcement::recover(const Contact         &contact,
                        const Vector          &unbalanced,
                        const ConstraintGraph &graph)
   {
     if (contact.friction().active())
-      find_shared_nodes(contact, graph);
+      {
+        const std::vector<bool> undetermined = undetermined_stick(contact, graph);
+        for (const ContactRow &row : contact.rows())
+          row_states[row].friction.shared = undetermined[row.index];
+      }
     evaluate(contact, unbalanced, graph);
   }
 
@@ -119,12 +91,11 @@ namespace Touchstone
   {
     // Before any condition is added to the graph: of a cycle between pairs the rows of the latest
     // pair are left out and carry no force (doc/theory.md 6, "Cyclic constraints").
-    const std::vector<bool> redundant =
-      contact.cyclic_constraints().redundant_rows(contact, graph, cycle_threshold());
+    redundant = contact.cyclic_constraints().find(contact, graph, cycle_threshold());
     for (const ContactRow &row : contact.rows())
       {
-        row_states[row].redundant = redundant[row.index];
-        if (redundant[row.index])
+        row_states[row].redundant = redundant.rows[row.index];
+        if (row_states[row].redundant)
           clear(row);
       }
     constrain(contact, graph, system);

@@ -81,7 +81,7 @@ namespace Touchstone
     add_springs(contact, refused, graph, system);
     for (const auto &[row, conditions] : stick)
       for (const Condition &condition : conditions)
-        if (!offer(*row, condition))
+        if (redundant.stick[row->index] || !offer(*row, condition))
           refused_stick.add(*row, condition);
     record_refused_stick(refused_stick, contact, graph);
     if (system.takes_multipliers)

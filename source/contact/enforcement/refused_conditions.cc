@@ -34,6 +34,12 @@ namespace Touchstone
         all += other.all;
         free += other.free;
       }
+
+      double
+      part() const
+      {
+        return all > 0. ? free / all : 0.;
+      }
     };
 
     /** Orthonormal directions in which supports hold nodes, by node. */
@@ -74,8 +80,8 @@ namespace Touchstone
 
 
 
-  std::vector<bool>
-  RefusedConditions::can_be_met(const ConstraintGraph &graph,
+  std::vector<RefusedConditions::FreeParts>
+  RefusedConditions::free_parts(const ConstraintGraph &graph,
                                 const IndexSet        &owned,
                                 const MPI_Comm         communicator) const
   {
@@ -110,13 +116,22 @@ namespace Touchstone
         const std::size_t k = entry_of[i];
         (asked[i].node == entries[k].condition.node ? slaves : others)[k].add(answers[i]);
       }
-    std::vector<bool> result;
+    std::vector<FreeParts> result;
     for (std::size_t k = 0; k < entries.size(); ++k)
-      // A slave node that supports leave free moves with the row that determines it. Of the
-      // others half of the weight: where they are held but for small weights, as beside an edge
-      // at which both bodies are fixed, these would have to move by many times the gap.
-      result.push_back(slaves[k].free > 0.1 * slaves[k].all ||
-                       others[k].free > 0.5 * others[k].all);
+      result.push_back({slaves[k].part(), others[k].part()});
+    return result;
+  }
+
+
+
+  std::vector<bool>
+  RefusedConditions::can_be_met(const ConstraintGraph &graph,
+                                const IndexSet        &owned,
+                                const MPI_Comm         communicator) const
+  {
+    std::vector<bool> result;
+    for (const FreeParts &parts : free_parts(graph, owned, communicator))
+      result.push_back(parts.can_meet());
     return result;
   }
 } // namespace Touchstone

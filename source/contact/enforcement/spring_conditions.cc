@@ -72,7 +72,7 @@ namespace Touchstone
           add_spring(*row, condition, terms);
         }
     for (const auto &[row, condition] : stick)
-      if (!offer(*row, condition))
+      if (redundant.stick[row->index] || !offer(*row, condition))
         refused_stick.add(*row, condition);
     record_refused_stick(refused_stick, contact, graph);
     terms.finish();

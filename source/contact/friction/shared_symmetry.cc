@@ -34,7 +34,7 @@ namespace Touchstone
 
 
 
-  SharedSymmetry::SharedSymmetry(const Surface &master,
+  SharedSymmetry::SharedSymmetry(const Surface &other,
                                  const Normals &normals,
                                  const MPI_Comm communicator)
   {
@@ -45,7 +45,7 @@ namespace Touchstone
           }))
         planes.push_back(plane);
     };
-    for (const SurfaceNode &node : master.owned_nodes())
+    for (const SurfaceNode &node : other.owned_nodes())
       if (const auto found = normals.find(node.node); found != normals.end())
         for (const Tensor<1, dim> &normal : found->second)
           add({node.reference, normal}, node.size);
@@ -66,12 +66,12 @@ namespace Touchstone
 
 
   bool
-  SharedSymmetry::holds(const SurfaceNode &slave, const Tensor<1, dim> &normal) const
+  SharedSymmetry::holds(const SurfaceNode &node, const Tensor<1, dim> &normal) const
   {
     if (obstacle)
-      return obstacle_stays(slave, normal);
+      return obstacle_stays(node, normal);
     return std::any_of(planes.begin(), planes.end(), [&](const Plane &plane) {
-      return plane.is(slave.reference, normal, slave.size);
+      return plane.is(node.reference, normal, node.size);
     });
   }
 

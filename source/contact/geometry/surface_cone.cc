@@ -71,6 +71,16 @@ namespace Touchstone
 
 
 
+  void
+  SurfaceCone::mirror(const std::vector<Tensor<1, dim>> &planes)
+  {
+    for (const Tensor<1, dim> &plane : planes)
+      for (std::size_t k = 0, n = normals.size(); k < n; ++k)
+        normals.push_back(normals[k] - 2. * (normals[k] * plane) * plane);
+  }
+
+
+
   double
   SurfaceCone::distance(const Tensor<1, dim> &direction) const
   {

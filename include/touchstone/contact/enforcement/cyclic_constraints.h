@@ -26,21 +26,35 @@ namespace Touchstone
   class CyclicConstraints
   {
   public:
+    /** Of the rows of this rank, by their index. */
+    struct Redundant
+    {
+      /** All conditions of the row. */
+      std::vector<bool> rows;
+      /** Those of stick of other rows, which the condition along the normal does without. */
+      std::vector<bool> stick;
+    };
+
     /** @brief Find the pairs that can be part of a cycle. Collective. */
     void
     reinit(const std::vector<std::unique_ptr<ContactPair>> &pairs, MPI_Comm communicator);
 
     /**
-     * @brief Whether the rows of this rank, by their index, are redundant. Collective.
+     * @brief Conditions that are redundant. Collective.
+     *
+     * A cycle that only stick closes is none of the conditions along normals, which keep the bodies
+     * apart and remain.
      * @param graph     The prescribed displacements: rows that these determine are in no cycle.
      * @param threshold Smaller components of unit normals do not count.
      */
-    std::vector<bool>
-    redundant_rows(const Contact &contact, const ConstraintGraph &graph, double threshold) const;
+    Redundant
+    find(const Contact &contact, const ConstraintGraph &graph, double threshold) const;
 
   private:
     /** Pairs whose rows can depend on each other in a cycle, in their order. */
     std::vector<unsigned int> cyclic;
+
+    struct Search;
   };
 } // namespace Touchstone
 

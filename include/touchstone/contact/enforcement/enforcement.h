@@ -7,6 +7,7 @@
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/base/registry.h>
 #include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/impulse_rule.h>
 #include <touchstone/contact/row_array.h>
 #include <touchstone/contact/row_state.h>
@@ -271,6 +272,10 @@ namespace Touchstone
     clear(const ContactRow &row);
 
     RowArray<RowState> row_states;
+    /** Of the last linear system. Stick that depends on itself in a cycle is met by springs, as if
+     * the graph had refused it: where bodies meet around an edge that is not represented by all of
+     * their meshes, it is not quite what the others say. */
+    CyclicConstraints::Redundant redundant;
 
   private:
     /** The states and all memory. */
@@ -279,8 +284,6 @@ namespace Touchstone
      * updated since. */
     bool after_solve = false;
 
-    void
-    find_shared_nodes(const Contact &contact, const ConstraintGraph &supports);
     void
     change_status(const ContactRow &row, ContactStatus status);
   };

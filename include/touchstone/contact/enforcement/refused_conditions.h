@@ -49,9 +49,33 @@ namespace Touchstone
       return entries;
     }
 
-    /** @brief For each entry, whether nodes of its row are free to meet it. Collective.
+    /** The parts of the coefficients of a condition that supports leave free: those of its slave
+     * node, and those of all other nodes. 1: all. */
+    struct FreeParts
+    {
+      double slave, others;
+
+      /** @brief Nodes of the row are free to meet the condition: a slave node that supports leave
+       * free moves with the row that determines it. Of the others half of the weight: where they
+       * are held but for small weights, as beside an edge at which both bodies are fixed, these
+       * would have to move by many times the gap. */
+      bool
+      can_meet() const
+      {
+        return slave > 0.1 || others > 0.5;
+      }
+    };
+
+    /** @brief What supports leave free of each entry. Collective.
      * @param graph The same as before, now with further conditions.
      * @param owned Dofs of this rank. */
+    std::vector<FreeParts>
+    free_parts(const ConstraintGraph  &graph,
+               const dealii::IndexSet &owned,
+               MPI_Comm                communicator) const;
+
+    /** @brief For each entry, whether nodes of its row are free to meet it. Collective, with the
+     * parameters of free_parts(). */
     std::vector<bool>
     can_be_met(const ConstraintGraph  &graph,
                const dealii::IndexSet &owned,

@@ -47,7 +47,7 @@ namespace Touchstone
     Vec              base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
-    /** Equilibrium does not determine the force of stick: see Enforcement::find_shared_nodes(). */
+    /** Equilibrium does not determine the force of stick: see undetermined_stick(). */
     bool shared = false;
     /** @} */
 

@@ -22,6 +22,11 @@ namespace Touchstone
     /** @param node Owned by this rank. */
     SurfaceCone(const Surface &surface, Index node);
 
+    /** @brief Add what the other halves of the body have beyond planes of symmetry that the node
+     * lies on. @param planes Their normals, unit vectors. */
+    void
+    mirror(const std::vector<dealii::Tensor<1, dim>> &planes);
+
     /** @brief The node and those that share a face with it. */
     const std::vector<Index> &
     nodes() const
