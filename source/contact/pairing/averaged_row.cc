@@ -104,7 +104,10 @@ namespace Touchstone
         part = 1.5 * (1. - left) * (1. - left);
       else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
         part = straight;
-      const Number taken = weight * part * above;
+      // Of c_f at most, where faces of different size meet: more than 3/2 c_f (1 - kappa)^2 would
+      // be an overlap where none is, and a slope of above / sagitta times as much against its own
+      // node.
+      const Number taken = weight * part * (sagitta < above ? sagitta : above);
       // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
       // face than at the point next to the node.
       if (beside.val() == 0.)
