@@ -4,12 +4,14 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/results.h>
 #include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -236,5 +238,67 @@ namespace Touchstone
         lines.push_back("contact pair " + pair.parameters().name + ": " + text);
       }
     return lines;
+  }
+
+
+
+  namespace
+  {
+    /** Nodes at which a surface ends, of the faces that this rank knows. */
+    std::set<Index>
+    end_nodes(const Surface &surface)
+    {
+      std::set<Index> result;
+      for (const std::vector<Face> *const faces :
+           {&surface.owned_faces(), &surface.neighbour_faces()})
+        for (const Face &face : *faces)
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            for (unsigned int a = 0; a < 2; ++a)
+              if (const double xi = node_coordinates(face, m)[a];
+                  std::abs(xi) == 1. && (face.outer_edges & (1u << (2 * a + (xi > 0. ? 1 : 0)))))
+                result.insert(face.nodes[m]);
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<std::string>
+  uneven_ties(const Contact &contact)
+  {
+    // Rows of averages give each node what a pressure over its area gives, but for the areas of
+    // facets over curved surfaces. Of pointwise rows, meshes whose faces are of about the same size
+    // differ by 10 % and more somewhere, slaves that are nested in the master's faces by nothing.
+    constexpr double                even         = 1.05;
+    const MPI_Comm                  communicator = contact.communicator();
+    const std::vector<ContactPoint> points = master_points(contact, contact.ghosted_displacement());
+    std::vector<std::string>        result;
+    auto                            point = points.begin();
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const Surface *const master = contact.pair(p).master())
+        {
+          // At its ends the master may have less than the slave, whatever the rows.
+          const std::set<Index> ends = end_nodes(*master);
+          double                most = 0.;
+          for (const SurfaceNode &node : master->owned_nodes())
+            {
+              if (ends.count(node.node) == 0 && node.area > 0.)
+                most = std::max(most, point->area / node.area);
+              ++point;
+            }
+          most = Utilities::MPI::max(most, communicator);
+          if (!contact.pair(p).tied() || most <= even)
+            continue;
+          char text[300];
+          std::snprintf(text,
+                        sizeof(text),
+                        "': the meshes do not match, and rows of its pairing hand a uniform "
+                        "traction on to the master unevenly, to some node %.3g times what its area "
+                        "asks for. Displacements of such joints can be off by many per cent, most "
+                        "where a body hangs on few faces: 'Pairing = averaged' is exact there",
+                        most);
+          result.push_back("contact pair '" + contact.pair(p).parameters().name + text);
+        }
+    return result;
   }
 } // namespace Touchstone

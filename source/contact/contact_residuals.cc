@@ -143,6 +143,7 @@ namespace Touchstone
             where.x = where.start = at.point.x;
             where.normal          = at.point.normal();
             where.in_contact      = true;
+            where.stays_at_end    = true;
             if (const auto partner = search->find(where))
               set_pointwise_row(*partner, at.point.x, at.there.emplace());
           }

@@ -74,6 +74,17 @@ namespace Touchstone
       return force;
     }
 
+    /** Whether a node of a face lies where the surface ends: an edge of the body, in most cases. */
+    bool
+    at_end(const Face &face, const unsigned int m)
+    {
+      const auto xi = node_coordinates(face, m);
+      for (unsigned int a = 0; a < 2; ++a)
+        if (std::abs(xi[a]) == 1. && (face.outer_edges & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
+          return true;
+      return false;
+    }
+
     double
     size_of(const Face &face)
     {
@@ -338,17 +349,42 @@ namespace Touchstone
         worst = std::max(worst, force);
     if (worst.size == 0.)
       return "";
-    // Whether edges of both bodies touch there.
-    int touch = 0;
+    const std::string far =
+      "the contact force at " + at(worst.x) + " is far from normal to the slave surface: ";
+    const std::string &master_name = parameters.master_body, &slave_name = parameters.slave_body;
+    switch (touching_at(worst.x))
+      {
+        case Feature::edges:
+          return far + "an edge of '" + master_name + "' touches an edge of '" + slave_name +
+                 "' there";
+        case Feature::sharp:
+          return far + "an edge or a vertex of '" + master_name + "' touches '" + slave_name +
+                 "' there";
+        default:
+          return far + "the faces of '" + slave_name + "' there are so large that '" + master_name +
+                 "' bends away from them by as much over one of them";
+      }
+  }
+
+
+
+  UnresolvedContact::Feature
+  UnresolvedContact::touching_at(const Point<dim> &x) const
+  {
+    const std::vector<Face> others = nearby_master_faces();
+    int                     found  = static_cast<int>(Feature::smooth);
+    for (const Face &face : others)
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        if (face.position(m).distance(x) < slave.largest_face() &&
+            (face.own_normals[m] * face.edge_normals[m] < Tolerances::sharp_node_cosine ||
+             at_end(face, m)))
+          found = static_cast<int>(Feature::sharp);
     // Also edges that only come close, as a converged contact of rows leaves them: negative depth.
     // Every rank takes part, as the exchange of faces is collective.
-    for (const Overlap &crossing : crossing_edges(nearby_master_faces(), -Tolerances::near_edge))
-      if (crossing.slave.distance(worst.x) < slave.largest_face())
-        touch = 1;
-    const bool edges = Utilities::MPI::max(touch, solid.communicator) == 1;
-    return "the contact force at " + at(worst.x) + " is far from normal to the slave surface: an " +
-           (edges ? "edge of '" : "edge or a vertex of '") + parameters.master_body + "' touches " +
-           (edges ? "an edge of '" : "'") + parameters.slave_body + "' there";
+    for (const Overlap &crossing : crossing_edges(others, -Tolerances::near_edge))
+      if (crossing.slave.distance(x) < slave.largest_face())
+        found = static_cast<int>(Feature::edges);
+    return static_cast<Feature>(Utilities::MPI::max(found, solid.communicator));
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/adjusted_start.h>
 #include <touchstone/drive/complete_parameters.h>
@@ -264,6 +265,8 @@ namespace Touchstone
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
+    for (const std::string &text : uneven_ties(problem->state().contact))
+      warnings.add(text);
     if (!origin.checkpoint)
       record_start();
     try
@@ -323,6 +326,8 @@ namespace Touchstone
     add(scene.without_effect);
     add(describe_bodies(scene, forest, solid));
     for (const std::string &text : forest.warnings())
+      lines.push_back("warning: " + text);
+    for (const std::string &text : uneven_ties(problem->state().contact))
       lines.push_back("warning: " + text);
     add(adjusted);
     add(start);

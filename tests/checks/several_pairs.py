@@ -2,12 +2,12 @@
 """Slave nodes whose displacement is not free, for supports, drives or other pairs determine it:
 contact holds nevertheless, with every enforcement, either role and on two ranks. Edges around which
 several bodies are tied or stick: patch tests, whatever the roles, angles, meshes and the order of
-pairs."""
+pairs. Pointwise ties of meshes that do not match are named in a warning."""
 
 import math
 
 from touchstone_test import (CG, ENFORCEMENT, EXACT_ENFORCEMENTS, GAP, GMRES, PENALTY, below, check, checks,
-                             finish, folder, relative, run)
+                             finish, folder, relative, run, tests)
 
 E, NU = 1000., 0.3
 NAMES = "abcdefgh"
@@ -340,4 +340,13 @@ for enforcement, n_ranks in (LAGRANGE, 1), (ELIMINATION, 2):
     for d, expected in (0, -2), (2, 8):
         below(f"{brick}, force {d}", relative(sum(brick.force(side)[d] for side in ("bed left", "bed right")), expected),
               1e-7)
+
+# Pointwise rows tie meshes 6 : 4, with the coarse side as slave 4 : 8; ties that are exact.
+LOWER, UPPER = "Body lower/Geometry/Cells", "Body upper/Geometry/Cells"
+for k, (change, uneven) in enumerate((({}, True), ({LOWER: "4, 4, 2", UPPER: "8, 8, 2"}, True),
+                                      ({LOWER: "4, 4, 2"}, False), ({LOWER: "8, 8, 3"}, False),
+                                      ({"Contact pair interface/Pairing": "averaged"}, False))):
+    result = run(f"uneven_{k}", tests / "tied_non_matching.prm", change, ranks=1 + (k == 0))
+    found = any("the meshes do not match" in text for text in result.summary["warnings"])
+    check(found == uneven, f"{result}: warnings {result.summary['warnings']}")
 finish()

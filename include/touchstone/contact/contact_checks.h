@@ -23,6 +23,12 @@ namespace Touchstone
   std::vector<std::string>
   start_report(const Contact &contact);
 
+  /** @brief Tied pairs whose rows hand a uniform traction on to interior nodes of the master in
+   * other parts than their areas, as pointwise rows of meshes that do not match do (doc/theory.md
+   * 3): a sentence for each. Collective. */
+  std::vector<std::string>
+  uneven_ties(const Contact &contact);
+
   /** @brief Contact in the state of the last update that rows of slave nodes and master faces
    * cannot describe, in words; empty if there is none. Collective. */
   std::string

@@ -80,6 +80,18 @@ namespace Touchstone
                      const dealii::BoundingBox<dim> &box,
                      const Face                     &other,
                      std::vector<Overlap>           &found) const;
+    /** What of the master may touch the slave surface. */
+    enum class Feature
+    {
+      smooth,
+      /** A sharp edge, a vertex, or the end of the surface. */
+      sharp,
+      /** Edges of both. */
+      edges
+    };
+    /** Within a slave face of @p x. Collective. */
+    Feature
+    touching_at(const dealii::Point<dim> &x) const;
     /** The deepest of those that lie in the other body, from all ranks; depth zero if there
      * is none. */
     Overlap

@@ -96,7 +96,9 @@ namespace Touchstone
     // for all rows at once. Collective, also on ranks without active rows.
     std::vector<const Face *> needed;
     for (const auto &[face, master] : masters)
-      needed.push_back(face);
+      // Normals of facets do not depend on averages.
+      if (master.geometry.interpolates_normals() || master.geometry.smooth())
+        needed.push_back(face);
     const Derivatives of_masters = exchange.normal_derivatives(needed);
     Derivatives       of_slaves;
     // Slave normals matter only where slave faces are smooth patches.

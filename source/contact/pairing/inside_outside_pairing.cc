@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/pairing/end_of_surface.h>
 #include <touchstone/contact/pairing/normal_search.h>
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/pairing/slave_direction.h>
@@ -53,13 +54,14 @@ namespace Touchstone
 
     private:
       NormalSearch search;
+      EndOfSurface end;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<MetFace>> met;
       /** Faces at which the search begins, indices in those of the search. */
       std::vector<std::size_t> guesses;
 
       std::optional<MetFace>
-      meet(const Point<dim> &x, const ContactRow &row, std::size_t &guess) const;
+      meet(const Point<dim> &x, const ContactRow &row, bool stays_at_end, std::size_t &guess) const;
       void
       differentiate(const MetFace                       &one,
                     Index                                slave,
@@ -77,12 +79,15 @@ namespace Touchstone
     // On a sharp edge the direction is that which looks at the master most, among those that meet
     // something near.
     std::optional<MetFace>
-    InsideOutsidePairing::meet(const Point<dim> &x, const ContactRow &row, std::size_t &guess) const
+    InsideOutsidePairing::meet(const Point<dim> &x,
+                               const ContactRow &row,
+                               const bool        stays_at_end,
+                               std::size_t      &guess) const
     {
       std::vector<MetFace> found;
       double               nearest = std::numeric_limits<double>::max();
       for (const SlaveDirection &direction : slave_directions(*input.slave, row.slave))
-        if (const auto one = search.look({x, direction.n, row.was_active, guess}))
+        if (const auto one = search.look({x, direction.n, stays_at_end, guess}))
           {
             found.push_back({*one, direction, -1. * (direction.n * one->at.point.normal())});
             nearest = std::min(nearest, std::abs(one->at.along));
@@ -105,8 +110,9 @@ namespace Touchstone
 
 
     void
-    InsideOutsidePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
+    InsideOutsidePairing::update(const Vector &u, const double time, std::vector<ContactRow> &rows)
     {
+      end.begin(time, rows);
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       std::vector<Point<dim>>         positions;
       for (const SurfaceNode &node : nodes)
@@ -115,13 +121,14 @@ namespace Touchstone
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];
-          met[k]          = meet(positions[k], row, guesses[k]);
+          met[k]          = meet(positions[k], row, end.stays(k, row), guesses[k]);
           row.stencil.clear();
           row.has_partner = met[k].has_value();
           row.gap         = 0.;
           row.away        = 0.;
           if (!met[k])
             {
+              end.left(k, row);
               row.away = search.least_distance(positions[k]);
               continue;
             }

@@ -42,7 +42,7 @@ namespace Touchstone
       return;
     const BeyondEdges beyond(face, found->xi);
     if (beyond.inner > Tolerances::face_coordinate ||
-        beyond.outer > (point.in_contact ? Tolerances::edge_hysteresis : 1.) * edge_tolerance)
+        beyond.outer > (point.stays_at_end ? Tolerances::edge_hysteresis : 1.) * edge_tolerance)
       return;
     // A line through an edge meets the faces on both sides of it in the same point: the one with
     // the smaller key is taken on any number of ranks.

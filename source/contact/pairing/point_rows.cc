@@ -158,6 +158,7 @@ namespace Touchstone
             where.x = where.start = point.x;
             where.normal          = slave.normal();
             where.in_contact      = row.was_active;
+            where.stays_at_end    = row.was_active;
             point.partner         = search->find(where);
             point.present         = point.partner.has_value();
           }

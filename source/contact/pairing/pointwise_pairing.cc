@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/aggregated_rows.h>
+#include <touchstone/contact/pairing/end_of_surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
 
@@ -81,6 +82,7 @@ namespace Touchstone
       Search search;
       /** Where nodes leave their rows to others. */
       AggregatedRows aggregated;
+      EndOfSurface   end;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
       /** Keys of the faces that were the partners of the nodes in the last update. */
@@ -109,6 +111,7 @@ namespace Touchstone
     {
       SlavePoint point{
         x, start[k], input.slave->normal(row.slave), row.was_active, present_faces[k], indices[k]};
+      point.stays_at_end = end.stays(k, row);
       if (self)
         {
           point.self        = &*self;
@@ -122,8 +125,9 @@ namespace Touchstone
 
 
     void
-    PointwisePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
+    PointwisePairing::update(const Vector &u, const double time, std::vector<ContactRow> &rows)
     {
+      end.begin(time, rows);
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       std::vector<Point<dim>>         positions;
       for (const SurfaceNode &node : nodes)
@@ -147,6 +151,7 @@ namespace Touchstone
           row.stencil.clear();
           if (!partner)
             {
+              end.left(k, row);
               row.has_partner = false;
               row.gap         = 0.;
               // A face of the own body that is closer may come to count as it turns.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/edge_normal.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
 #include <touchstone/contact/pairing/pointwise_row_derivative.h>
 #include <touchstone/contact/pairing/row_derivative.h>
@@ -95,7 +96,10 @@ namespace Touchstone
     for_each(partner, [&](const ContactPartner &one) {
       mean += part * one.normal;
       geometries.push_back(search.geometry(*one.face));
-      derivatives.emplace_back(geometries.back(), one, x - one.x);
+      derivatives.emplace_back(geometries.back(),
+                               one,
+                               differentiate_over_edges(geometries.back(), one.xi),
+                               x - one.x);
       // On an edge of the face a weight is zero but its derivative is not: the node belongs to the
       // stencil for the derivative.
       for (unsigned int m = 0; m < one.face->n_nodes(); ++m)

@@ -53,11 +53,12 @@ namespace Touchstone
 
   PointwiseRowDerivative::PointwiseRowDerivative(const FaceGeometry   &geometry,
                                                  const ContactPartner &partner,
+                                                 const FaceDerivative &master,
                                                  const Tensor<1, dim> &gap_vector)
     : geometry(geometry)
     , partner(partner)
     , r(gap_vector)
-    , master(FaceDifferentiator(geometry).at(partner.xi))
+    , master(master)
     , closest(geometry, partner.xi, master.point, r)
     , by_slave(closest(master.point.tangents[0], master.point.tangents[1]))
     , by_gap_vector(partner.wedge * normalisation_derivative(r))
@@ -132,7 +133,14 @@ namespace Touchstone
           local,
           part,
           builder);
-    if (of_normals && (partner.wedge == 0 || geometry.smooth()))
+    // Those of facets matter beside their edges only, see normal_over_edges().
+    const bool by_normals =
+      geometry.smooth() ||
+      (partner.wedge == 0 &&
+       std::any_of(master.normal_normal.begin(),
+                   master.normal_normal.begin() + face.n_nodes(),
+                   [](const Tensor<2, dim> &by_normal) { return by_normal.norm_square() > 0.; }));
+    if (of_normals && by_normals)
       for (const NormalDerivative &d : *of_normals)
         add(d.node,
             -1. * master.x_normal[d.m],

@@ -58,7 +58,7 @@ namespace Touchstone
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       of_face.push_back({face.nodes[m], shapes.value[m]});
     RowDerivativeBuilder builder(of_face.size());
-    PointwiseRowDerivative(geometry, partner, distance)
+    PointwiseRowDerivative(geometry, partner, FaceDifferentiator(geometry).at(xi), distance)
       .compute(vertex, of_face, 1., of_normals, builder);
     const auto &exchanged = builder.result;
 

@@ -248,9 +248,6 @@ namespace Touchstone
   FaceExchange::normal_derivatives(const std::vector<const Face *> &needed) const
   {
     std::unordered_map<const Face *, std::vector<NormalDerivative>> result;
-    // Normals of facets do not depend on averages.
-    if (kind == MasterNormal::face)
-      return result;
     // Each face once, also with an empty result if it has no derivative.
     for (const Face *face : needed)
       result[face];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/edge_normal.h>
 #include <touchstone/contact/search/search.h>
 
 #include <algorithm>
@@ -281,7 +282,7 @@ namespace Touchstone
     partner.xi                = candidate.projection.xi;
     const FacePoint on_master = shape.evaluate(partner.xi);
     partner.x                 = on_master.x;
-    partner.normal = shape.normal(FaceShapes(shape.face().degree, partner.xi), on_master);
+    partner.normal            = normal_over_edges(shape, partner.xi, on_master);
     // Beyond an edge at which xi was bounded and faces meet at a sharp angle, the normal of either
     // face is not the direction of the gap.
     Tensor<1, dim> edge;
@@ -312,7 +313,7 @@ namespace Touchstone
     const auto on_surface = [&](const FaceProjection &candidate) {
       return candidate.face != nullptr &&
              candidate.projection.beyond_outer <=
-               (point.in_contact ? Tolerances::edge_hysteresis : 1.) * tolerance;
+               (point.stays_at_end ? Tolerances::edge_hysteresis : 1.) * tolerance;
     };
     const ClosestFaces    faces = closest(point);
     const FaceProjection &found = faces.best;

@@ -18,8 +18,8 @@ namespace Touchstone
     dealii::Point<dim> x;
     /** Unit outward normal of the slave surface. */
     dealii::Tensor<1, dim> n;
-    /** It carried a contact force before, see SlavePoint. */
-    bool in_contact = false;
+    /** See SlavePoint. */
+    bool stays_at_end = false;
     /** Index of the face at which the search begins, in Search::known_faces(); any other only
      * costs time. */
     std::size_t guess = std::numeric_limits<std::size_t>::max();

@@ -51,9 +51,11 @@ namespace Touchstone
   {
   public:
     /** @param geometry, partner Must live as long.
+     * @param master     The point that the partner is, with the normal of the row.
      * @param gap_vector r, length. */
     PointwiseRowDerivative(const FaceGeometry           &geometry,
                            const ContactPartner         &partner,
+                           const FaceDerivative         &master,
                            const dealii::Tensor<1, dim> &gap_vector);
 
     /** @brief Whether the weight of node @p m of the face changes with the point. */

@@ -24,14 +24,17 @@ namespace Touchstone
     /** Outward normal of the slave surface there: faces whose normals are about the same
      * are on the far side of a body. */
     dealii::Tensor<1, dim> normal;
-    /** The node carried a contact force before: it leaves the end of the surface only at a multiple
-     * of the distance beyond it up to which other nodes find a partner (hysteresis). */
+    /** The node carried a contact force before. */
     bool in_contact = false;
     /** Key of the face that the node had last: one in contact may keep it, and the search begins
      * there. */
     std::optional<std::uint64_t> present_face;
     /** The index that this face had in FaceExchange::faces() then; any other only costs time. */
     std::size_t index_before = std::numeric_limits<std::size_t>::max();
+
+    /** The node leaves the end of the surface only at a multiple of the distance beyond it up to
+     * which others find a partner, see EndOfSurface. */
+    bool stays_at_end = in_contact;
 
     /** @name Where slave and master are the same body; null elsewhere */
     /** @{ */
