@@ -4,11 +4,11 @@
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/adjusted_start.h>
-#include <touchstone/drive/complete_parameters.h>
 #include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/mesh/obstacle_shape.h>
+#include <touchstone/scene/complete_scene.h>
 #include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,7 +80,7 @@ namespace Touchstone
     , repeated_failure(scene.newton)
   {
     reference->check_mesh(solid);
-    folder.write_file_atomically("parameters.prm", complete_parameters(scene, folder_of_scene));
+    folder.write_file_atomically("parameters.prm", complete_scene(scene, folder_of_scene));
     summary.title    = scene.title;
     summary.version  = TOUCHSTONE_VERSION;
     summary.ranks    = Utilities::MPI::n_mpi_processes(communicator);

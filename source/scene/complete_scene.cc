@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/drive/complete_parameters.h>
+#include <touchstone/scene/complete_scene.h>
 #include <touchstone/scene/scene.h>
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace Touchstone
 {
   std::string
-  complete_parameters(const Scene &scene, const std::string &folder)
+  complete_scene(const Scene &scene, const std::string &folder)
   {
     std::stringstream listing;
     scene.print(listing);

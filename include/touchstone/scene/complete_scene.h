@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef touchstone_drive_complete_parameters_h
-#define touchstone_drive_complete_parameters_h
+#ifndef touchstone_scene_complete_scene_h
+#define touchstone_scene_complete_scene_h
 
 #include <string>
 
@@ -14,7 +14,7 @@ namespace Touchstone
    * @param folder Folder of the scene file, to which names of files in the scene are relative; here
    *   they are absolute. */
   std::string
-  complete_parameters(const Scene &scene, const std::string &folder);
+  complete_scene(const Scene &scene, const std::string &folder);
 } // namespace Touchstone
 
 #endif
