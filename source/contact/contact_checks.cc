@@ -11,7 +11,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -253,10 +252,8 @@ namespace Touchstone
            {&surface.owned_faces(), &surface.neighbour_faces()})
         for (const Face &face : *faces)
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            for (unsigned int a = 0; a < 2; ++a)
-              if (const double xi = node_coordinates(face, m)[a];
-                  std::abs(xi) == 1. && (face.outer_edges & (1u << (2 * a + (xi > 0. ? 1 : 0)))))
-                result.insert(face.nodes[m]);
+            if (at_end(face, m))
+              result.insert(face.nodes[m]);
       return result;
     }
   } // namespace

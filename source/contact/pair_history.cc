@@ -44,6 +44,7 @@ namespace Touchstone
   ContactPair::rollback()
   {
     present = committed;
+    pairing_method->rollback();
     if (points_meet && !(points().empty() && points_before.empty()))
       point_rows->set(points_before);
   }

@@ -74,17 +74,6 @@ namespace Touchstone
       return force;
     }
 
-    /** Whether a node of a face lies where the surface ends: an edge of the body, in most cases. */
-    bool
-    at_end(const Face &face, const unsigned int m)
-    {
-      const auto xi = node_coordinates(face, m);
-      for (unsigned int a = 0; a < 2; ++a)
-        if (std::abs(xi[a]) == 1. && (face.outer_edges & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
-          return true;
-      return false;
-    }
-
     double
     size_of(const Face &face)
     {

@@ -2,6 +2,8 @@
 
 #include <touchstone/contact/geometry/face.h>
 
+#include <cmath>
+
 
 // Shape functions of bilinear and biquadratic faces and the position on a face, on facets or on the
 // exact surface (doc/theory.md 4, equation (8)). Everything that measures gaps evaluates faces here
@@ -95,6 +97,18 @@ namespace Touchstone
     const unsigned int p = face.degree;
     // Lexicographic numbering of p + 1 equidistant nodes per direction.
     return {{2. * (m % (p + 1)) / p - 1., 2. * (m / (p + 1)) / p - 1.}};
+  }
+
+
+
+  bool
+  at_end(const Face &face, const unsigned int m)
+  {
+    const std::array<double, 2> xi = node_coordinates(face, m);
+    for (unsigned int a = 0; a < 2; ++a)
+      if (std::abs(xi[a]) == 1. && (face.outer_edges & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
+        return true;
+    return false;
   }
 
 

@@ -41,6 +41,12 @@ namespace Touchstone
       }
 
       void
+      rollback() override
+      {
+        end.rollback();
+      }
+
+      void
       update(const Vector &u, double, std::vector<ContactRow> &rows) override;
 
       void

@@ -69,6 +69,11 @@ namespace Touchstone
   std::array<double, 2>
   node_coordinates(const Face &face, unsigned int m);
 
+  /** @brief Whether a node of a face lies where the surface ends: an edge of the body, in most
+   * cases. */
+  bool
+  at_end(const Face &face, unsigned int m);
+
   /** @brief Values and derivatives of the shape functions of a face. */
   struct FaceShapes
   {

@@ -32,6 +32,13 @@ namespace Touchstone
         has_left.assign(rows.size(), false);
     }
 
+    /** @brief The step begins again. */
+    void
+    rollback()
+    {
+      of_step = std::numeric_limits<double>::quiet_NaN();
+    }
+
     /** @brief Whether node @p k stays. */
     bool
     stays(const std::size_t k, const ContactRow &row) const

@@ -121,6 +121,12 @@ namespace Touchstone
     {
     }
 
+    /** @brief The step begins again from the committed state. */
+    virtual void
+    rollback()
+    {
+    }
+
     /** @brief What it knows of earlier steps, for checkpoints; nothing if each update
      * begins anew from positions alone. */
     virtual PairingMemory
