@@ -72,12 +72,6 @@ namespace Touchstone
 
 
 
-    /** What a face takes from g_s at most, by its own sagitta: where small faces are beside large
-     * ones it is less than that of the row. A node that moves alone keeps half of its motion then,
-     * for 5/12 of it are lost per sagitta on square faces (doc/theory.md 3.1). And it is no more
-     * than 3/2 (1 - kappa)^2 with the true part of the curvature, less odd_curvature, for any. */
-    constexpr double own_arch = 1.2;
-
     /** What one face takes from g_s, equation (7); length.
      * @param at_node g_s. @param above The same less the mean gap, of the row. @param beside 0
      * where the node is covered, 1 where it clearly is not. @param whole Area of the row. */
@@ -114,8 +108,7 @@ namespace Touchstone
         part = 1.5 * (1. - left) * (1. - left);
       else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
         part = straight;
-      const Number arch  = Number(own_arch * sagitta);
-      const Number taken = weight * part * (arch < above ? arch : above);
+      const Number taken = weight * part * above;
       // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
       // face than at the point next to the node.
       if (beside.val() == 0.)
