@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Active sets that went in circles: a point inside a slave face between stick and slip, when its step was
+"""Active sets that cycled: a point inside a slave face between stick and slip, when its step was
 solved from a state without it, and rows of a body that yields, judged before their set was solved; and nodes
 that went to and fro between two faces of a valley. Nodes that an iterate has closed beyond the end of the
 master. One answer of all enforcements and solvers, and on two ranks."""

@@ -239,6 +239,13 @@ namespace Touchstone
       template <unsigned int n>
       void
       add_face(SlaveFace &face, CoveredFace &covered);
+      /** Note what nodes without rows have of a face whose other nodes cannot take it.
+       * @param areas Of what is covered, by node. @param plane plane_normal() of the face. */
+      void
+      add_left_alone(const SlaveFace         &face,
+                     const Face              &slave,
+                     const DualBasis::Values &areas,
+                     const Tensor<1, dim>    &plane);
       /** Add the parts of the face that nodes give to others. @param shares Of the face. */
       void
       add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
@@ -355,11 +362,7 @@ namespace Touchstone
                            face.whole,
                            face.at_once,
                            /*with_derivative=*/false);
-      face.cover = dual.shares.cover;
-      // As if none of its nodes kept their rows.
-      CoverShares::Whole could_give = face.at_once;
-      could_give.gives              = slave.without_row;
-      const bool takes   = CoverShares::gives_away(n, dual.areas, face.whole, could_give);
+      face.cover         = dual.shares.cover;
       const auto present = whole_areas(slave, face.basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
@@ -370,12 +373,8 @@ namespace Touchstone
           RowSums &sum = sums[face.row[k]];
           sum.shared   = face.at_once.part[k];
           if (input.one_of_several)
-            {
-              const SurfaceNode &node = input.slave->owned_nodes()[face.row[k]];
-              covered_nodes.add<n>(node, k, plane, dual, masters, parts);
-              if (could_give.gives[k] && !takes)
-                left_alone[node.node] -= dual.areas[k] * plane;
-            }
+            covered_nodes.add<n>(
+              input.slave->owned_nodes()[face.row[k]], k, plane, dual, masters, parts);
           // Where the node hangs the row is that of another node, which is not on this face.
           FaceShare *share = nullptr;
           if (!face.basis || face.basis->nodes[k] == slave.nodes[k])
@@ -394,8 +393,33 @@ namespace Touchstone
             sum.left_to_others += dual.areas[k] - kept;
           sum.reference += kept * face.whole[k] / present[k];
         }
+      if (input.one_of_several)
+        add_left_alone(face, slave, dual.areas, plane);
       if (dual.shares.partial)
         add_shares(face, slave, dual.shares);
+    }
+
+
+
+    void
+    AveragedPairing::add_left_alone(const SlaveFace         &face,
+                                    const Face              &slave,
+                                    const DualBasis::Values &areas,
+                                    const Tensor<1, dim>    &plane)
+    {
+      const auto &without_row = slave.without_row;
+      if (std::none_of(without_row.begin(), without_row.end(), [](const bool given) {
+            return given;
+          }))
+        return;
+      // As if none of its nodes kept their rows.
+      CoverShares::Whole could_give = face.at_once;
+      could_give.gives              = without_row;
+      if (CoverShares::gives_away(slave.n_nodes(), areas, face.whole, could_give))
+        return;
+      for (unsigned int k = 0; k < slave.n_nodes(); ++k)
+        if (without_row[k] && face.row[k] >= 0)
+          left_alone[input.slave->owned_nodes()[face.row[k]].node] -= areas[k] * plane;
     }
 
 

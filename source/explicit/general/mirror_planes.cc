@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/exchange.h>
+#include <touchstone/base/first_of_ranks.h>
 #include <touchstone/explicit/general/mirror_planes.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 // Bodies that fold through their own plane of symmetry (doc/general_contact.md, section 6.1).
@@ -43,20 +44,31 @@ namespace Touchstone
                       normal *= -1.;
                     faces.push_back({b, face->center(), normal / normal.norm()});
                   }
-          add(faces);
+          add(b, faces);
         }
   }
 
 
 
   void
-  MirrorPlanes::add(const std::vector<Plane> &faces)
+  MirrorPlanes::add(const unsigned int body, const std::vector<Plane> &faces)
   {
-    const std::vector<Plane> all =
-      gather_all(faces.empty() ? faces : std::vector<Plane>{faces.front()}, nodes.communicator());
-    if (all.empty())
+    // That of the first face in space, so that it does not depend on the ranks.
+    std::vector<double> mine;
+    for (const Plane &face : faces)
+      {
+        const Point<dim>         &x = face.point;
+        const Tensor<1, dim>     &n = face.outward;
+        const std::vector<double> place{x[0], x[1], x[2], n[0], n[1], n[2]};
+        if (mine.empty() || place < mine)
+          mine = place;
+      }
+    const std::vector<double> first = first_of_ranks(mine, 2 * dim, nodes.communicator());
+    if (first.empty())
       return;
-    const Plane plane   = all.front();
+    const Plane plane{body,
+                      Point<dim>(first[0], first[1], first[2]),
+                      Tensor<1, dim>({first[3], first[4], first[5]})};
     const auto  off     = [&](const Point<dim> &x) { return (x - plane.point) * plane.outward; };
     const auto  of_body = [&](const unsigned int node) { return nodes.body(node) == plane.body; };
     double      largest = 0.;
@@ -81,45 +93,38 @@ namespace Touchstone
                        const double                    part,
                        const std::vector<std::string> &bodies) const
   {
-    struct Farthest
-    {
-      double        by;
-      std::uint64_t key;
-      Point<dim>    position;
-    };
     for (const Plane &plane : planes)
       {
-        std::vector<Farthest> mine;
+        // Of the farthest node how far it is beyond the plane, negative, and where.
+        std::vector<double> mine;
+        std::uint64_t       n = 0;
         for (const unsigned int node : surface.owned_nodes())
           if (nodes.body(node) == plane.body)
             {
               const Point<dim> x  = surface.position(node, u);
               const double     by = (x - plane.point) * plane.outward;
-              if (by > part * surface.size(node))
-                mine.push_back({by, nodes.key(node), x});
+              if (!(by > part * surface.size(node)))
+                continue;
+              ++n;
+              const std::vector<double> place{-by, x[0], x[1], x[2]};
+              if (mine.empty() || place < mine)
+                mine = place;
             }
-        const std::uint64_t n =
-          Utilities::MPI::sum<std::uint64_t>(mine.size(), nodes.communicator());
-        if (n == 0)
+        const std::vector<double> far = first_of_ranks(mine, 1 + dim, nodes.communicator());
+        if (far.empty())
           continue;
-        const auto before = [](const Farthest &a, const Farthest &b) {
-          return a.by != b.by ? a.by > b.by : a.key < b.key;
-        };
-        std::sort(mine.begin(), mine.end(), before);
-        mine.resize(std::min<std::size_t>(mine.size(), 1));
-        std::vector<Farthest> all = gather_all(mine, nodes.communicator());
-        const Farthest        far = *std::min_element(all.begin(), all.end(), before);
-        char                  text[200];
+        n = Utilities::MPI::sum(n, nodes.communicator());
+        char text[200];
         std::snprintf(text,
                       sizeof(text),
                       "%llu nodes of '%s' have passed through its plane of symmetry, the farthest "
                       "by %.4g near (%.5g, %.5g, %.5g)",
                       static_cast<unsigned long long>(n),
                       bodies[plane.body].c_str(),
-                      far.by,
-                      far.position[0],
-                      far.position[1],
-                      far.position[2]);
+                      -far[0],
+                      far[1],
+                      far[2],
+                      far[3]);
         return text;
       }
     return "";

@@ -48,7 +48,7 @@ namespace Touchstone
     /** @brief The plane of faces, or nothing if they are not in one plane that has the surface of
      * the body on one side. Collective. @param faces Of this rank. */
     void
-    add(const std::vector<Plane> &faces);
+    add(unsigned int body, const std::vector<Plane> &faces);
   };
 } // namespace Touchstone
 
