@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/junctions.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/shared_faces.h>
 
@@ -57,7 +56,8 @@ namespace Touchstone
       if (pair->master())
         seen.add_indices(pair->master()->far_unknowns().begin(),
                          pair->master()->far_unknowns().end());
-    held_of_pairs.resize(pairs.size());
+    without_rows = NodesWithoutRows(pairs.size());
+    without_rows_finder.emplace(pairs, this->supports, solid);
     method->reinit(all_rows);
     impulse_forces.reinit(all_rows);
     cyclic.reinit(pairs, solid.communicator);
@@ -111,13 +111,16 @@ namespace Touchstone
 
 
   void
-  Contact::begin_again()
+  Contact::begin_again(const Vector &u, const double time)
   {
     std::vector<std::vector<MaterialPoint>> points(pairs.size());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       if (pairs[p]->takes_points())
         points[p] = pairs[p]->points();
     rollback();
+    if (formed)
+      change_rows(*formed, u, time);
+    formed.reset();
     for (unsigned int p = 0; p < pairs.size(); ++p)
       if (pairs[p]->takes_points())
         set_points(p, points[p]);
@@ -134,7 +137,7 @@ namespace Touchstone
     for (const auto &pair : pairs)
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
     if (!started)
-      remove_junction_rows(u);
+      leave_rows(u);
     complete_cover(u);
     // Impulses belong to the committed step alone.
     impulse_forces.reinit_present();
@@ -147,16 +150,16 @@ namespace Touchstone
 
 
   void
-  Contact::remove_junction_rows(const Vector &u)
+  Contact::leave_rows(const Vector &u)
   {
-    std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
-    held_of_pairs                      = held_nodes(pairs, supports, solid);
+    RowsByPair rows;
+    for (const auto &pair : pairs)
+      rows.push_back(pair->rows());
+    without_rows = without_rows_finder->find(rows);
     for (std::size_t p = 0; p < pairs.size(); ++p)
-      nodes[p].insert(held_of_pairs[p].begin(), held_of_pairs[p].end());
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      if (!nodes[p].empty())
+      if (const std::set<Index> nodes = without_rows.of_pair(p); !nodes.empty())
         {
-          pairs[p]->remove_rows(nodes[p]);
+          pairs[p]->remove_rows(nodes);
           pairs[p]->update(u, ghosted, present_time, [](const ContactRow &) { return false; });
         }
   }

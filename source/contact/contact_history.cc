@@ -34,6 +34,7 @@ namespace Touchstone
   void
   Contact::save(ArchiveWriter &archive) const
   {
+    save_nodes_without_rows(archive);
     for (const Stateful *part : parts)
       part->save(archive);
   }
@@ -46,9 +47,10 @@ namespace Touchstone
     // The update that made the rows was in the reference state: surfaces have to be moved to the
     // committed displacement before the parts are loaded.
     present_time = archive.get<double>("committed time");
+    load_nodes_without_rows(archive);
     move(archive.field("displacement"));
     for (const auto &pair : pairs)
-      pair->set_displacement(ghosted);
+      pair->set_displacement(ghosted, present_time);
     for (Stateful *part : parts)
       part->load(archive);
   }
@@ -91,28 +93,34 @@ namespace Touchstone
 
 
   void
+  Contact::adopt(const ContactRow &row, const std::vector<Vector> &fields, const bool history)
+  {
+    if (row.between_nodes)
+      return;
+    const Vector *const field = &fields[n_fields * row.pair];
+    Tensor<1, dim>      force;
+    for (unsigned int d = 0; d < dim; ++d)
+      force[d] = row.area * field[0](dim * row.slave + d);
+    // More than half of the neighbourhood decides about the status of a new node.
+    const ContactStatus status = field[1](dim * row.slave) < 0.5 ? ContactStatus::open
+                                 : row.friction && field[1](dim * row.slave + 1) >= 0.5
+                                   ? ContactStatus::stick
+                                   : ContactStatus::slip;
+    method->adopt(row, status, force);
+    if (row.friction && history)
+      friction_rows.adopt(row,
+                          state(row).force - state(row).lambda * row.normal,
+                          field[2](dim * row.slave),
+                          row.area * field[2](dim * row.slave + 1));
+  }
+
+
+
+  void
   Contact::adopt(const std::vector<Vector> &fields, const bool history)
   {
     for (const ContactRow &row : all_rows)
-      {
-        if (row.between_nodes)
-          continue;
-        const Vector *const field = &fields[n_fields * row.pair];
-        Tensor<1, dim>      force;
-        for (unsigned int d = 0; d < dim; ++d)
-          force[d] = row.area * field[0](dim * row.slave + d);
-        // More than half of the neighbourhood decides about the status of a new node.
-        const ContactStatus status = field[1](dim * row.slave) < 0.5 ? ContactStatus::open
-                                     : row.friction && field[1](dim * row.slave + 1) >= 0.5
-                                       ? ContactStatus::stick
-                                       : ContactStatus::slip;
-        method->adopt(row, status, force);
-        if (row.friction && history)
-          friction_rows.adopt(row,
-                              state(row).force - state(row).lambda * row.normal,
-                              field[2](dim * row.slave),
-                              row.area * field[2](dim * row.slave + 1));
-      }
+      adopt(row, fields, history);
     // The fields are the committed state: the step on the new mesh begins with it, and a rollback
     // leads here.
     if (history)

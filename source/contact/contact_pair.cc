@@ -37,7 +37,8 @@ namespace Touchstone
       }
     points_meet    = find_points();
     edges_meet     = points_meet && find_edges();
-    pairing_method = make_pairing(input.parameters.search_distance);
+    search_distance = input.parameters.search_distance;
+    pairing_method  = make_pairing(search_distance);
     if (points_meet)
       point_rows =
         std::make_unique<PointRows>(pairing_input(input.parameters.search_distance), edges_meet);

@@ -39,56 +39,13 @@ namespace Touchstone
      * RefusedConditions. */
     constexpr double least_free = 0.5;
 
-    /** Whether rows of a pair can determine all displacements of their nodes. */
-    bool
-    can_stick(const ContactPair &pair)
-    {
-      return pair.tied() || pair.parameters().friction;
-    }
-
-    /** The nodes that belong to surfaces of two or more pairs, the same on all ranks. Collective.
-     */
-    std::set<Index>
-    nodes_of_several_pairs(const std::vector<std::unique_ptr<ContactPair>> &pairs,
-                           const Solid                                     &solid)
-    {
-      Vector count(solid.zero_vector()), of_pair(count);
-      for (const auto &pair : pairs)
-        {
-          std::set<Index> nodes;
-          for (const Surface *surface : {&pair->slave(), pair->master()})
-            if (surface)
-              for (const Face &face : surface->owned_faces())
-                nodes.insert(face.nodes.begin(), face.nodes.begin() + face.n_nodes());
-          of_pair = 0.;
-          std::vector<Index> dofs;
-          for (const Index node : nodes)
-            dofs.push_back(dim * node);
-          of_pair.add(dofs, std::vector<double>(dofs.size(), 1.));
-          // Several ranks may have faces at a node.
-          of_pair.compress(VectorOperation::add);
-          for (double &value : of_pair)
-            value = std::min(value, 1.);
-          count += of_pair;
-        }
-      std::vector<Index> mine;
-      std::size_t        k = 0;
-      for (const Index dof : solid.owned)
-        if (count.begin()[k++] > 1.5)
-          mine.push_back(dof / dim);
-      const std::vector<Index> all = gather_all(mine, solid.communicator);
-      return {all.begin(), all.end()};
-    }
-
     /** The links between these nodes, of all ranks. Collective. */
     std::vector<Link>
-    links(const std::vector<std::unique_ptr<ContactPair>> &pairs,
-          const std::set<Index>                           &nodes,
-          const MPI_Comm                                   communicator)
+    links(const RowsByPair &rows, const std::set<Index> &nodes, const MPI_Comm communicator)
     {
       std::vector<Link> mine;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        for (const ContactRow &row : pairs[p]->rows())
+      for (unsigned int p = 0; p < rows.size(); ++p)
+        for (const ContactRow &row : rows[p])
           if (row.has_partner && !row.between_nodes && nodes.count(row.slave) > 0 &&
               (row.tied || row.gap < row.size))
             for (const StencilEntry &entry : row.stencil)
@@ -100,18 +57,57 @@ namespace Touchstone
 
 
 
+  bool
+  can_stick(const ContactPair &pair)
+  {
+    return pair.tied() || pair.parameters().friction;
+  }
+
+
+
+  std::set<Index>
+  nodes_of_several_pairs(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid)
+  {
+    Vector count(solid.zero_vector()), of_pair(count);
+    for (const auto &pair : pairs)
+      {
+        std::set<Index> nodes;
+        for (const Surface *surface : {&pair->slave(), pair->master()})
+          if (surface)
+            for (const Face &face : surface->owned_faces())
+              nodes.insert(face.nodes.begin(), face.nodes.begin() + face.n_nodes());
+        of_pair = 0.;
+        std::vector<Index> dofs;
+        for (const Index node : nodes)
+          dofs.push_back(dim * node);
+        of_pair.add(dofs, std::vector<double>(dofs.size(), 1.));
+        // Several ranks may have faces at a node.
+        of_pair.compress(VectorOperation::add);
+        for (double &value : of_pair)
+          value = std::min(value, 1.);
+        count += of_pair;
+      }
+    std::vector<Index> mine;
+    std::size_t        k = 0;
+    for (const Index dof : solid.owned)
+      if (count.begin()[k++] > 1.5)
+        mine.push_back(dof / dim);
+    const std::vector<Index> all = gather_all(mine, solid.communicator);
+    return {all.begin(), all.end()};
+  }
+
+
+
   std::vector<std::set<Index>>
-  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid)
+  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                 const RowsByPair                                &rows,
+                 const std::set<Index>                           &nodes,
+                 const Solid                                     &solid)
   {
     std::vector<std::set<Index>> result(pairs.size());
-    // Pairs are the same on all ranks.
-    if (pairs.size() < 2 ||
-        std::none_of(pairs.begin(), pairs.end(), [](const auto &pair) { return can_stick(*pair); }))
-      return result;
-    const std::set<Index> nodes = nodes_of_several_pairs(pairs, solid);
     if (nodes.empty())
       return result;
-    const std::vector<Link>      all = links(pairs, nodes, solid.communicator);
+    const std::vector<Link>      all = links(rows, nodes, solid.communicator);
     std::map<Index, std::size_t> numbers;
     for (const Index node : nodes)
       numbers.emplace(node, numbers.size());
@@ -173,13 +169,14 @@ namespace Touchstone
 
   std::vector<std::set<Index>>
   held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+             const RowsByPair                                &rows,
              const ContactPair::Mirrors                      &supports,
              const Solid                                     &solid)
   {
     std::vector<std::set<Index>> result(pairs.size());
     std::vector<Facing>          mine;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (const ContactRow &row : pairs[p]->rows())
+      for (const ContactRow &row : rows[p])
         if (row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size) &&
             free_part(row.normal, row.slave, supports) < no_part &&
             free_part(row.normal, row.slave, pairs[p]->planes_of_symmetry()) > no_part)

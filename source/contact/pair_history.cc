@@ -180,10 +180,6 @@ namespace Touchstone
     committed = present;
     if (points_meet)
       load_points(archive);
-    // Small sliding: the pairing is that of the reference state, made by the update before.
-    if (small)
-      return;
-    pairing_method->commit_positions(*displacement);
-    pairing_method->remember(memory);
+    remember(memory);
   }
 } // namespace Touchstone

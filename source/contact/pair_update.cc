@@ -64,7 +64,8 @@ namespace Touchstone
       {
         // The first search did not reach the surface from within the overlap. The new distance
         // covers the depth and two faces beyond it.
-        pairing_method = make_pairing(std::max(depth + 2. * face, 4. * face));
+        search_distance = std::max(depth + 2. * face, 4. * face);
+        pairing_method  = make_pairing(search_distance);
         pairing_method->update(u, time, present);
         ++searches;
       }
@@ -82,44 +83,53 @@ namespace Touchstone
     Vector zero;
     zero.reinit(*displacement);
     search(zero);
-    reference = present;
+    reference = {present, with_stencils(present)};
+  }
 
+
+
+  Vector
+  ContactPair::with_stencils(const std::vector<ContactRow> &rows) const
+  {
     // Stencils may refer to dofs that are not in the ghost layer.
     IndexSet needed = input.solid.relevant;
-    for (const ContactRow &row : reference)
+    for (const ContactRow &row : rows)
       for (const StencilEntry &entry : row.stencil)
         needed.add_range(dim * entry.node, dim * entry.node + dim);
     needed.compress();
-    stencil_values.reinit(input.solid.owned, needed, input.solid.communicator);
+    Vector result;
+    result.reinit(input.solid.owned, needed, input.solid.communicator);
+    return result;
   }
 
 
 
   void
-  ContactPair::update_small_sliding(const Vector &u)
+  ContactPair::set_gaps(std::vector<ContactRow> &rows, ReferenceRows &from, const Vector &u) const
   {
     // Gap vector g_0 + M u with constant weights and normal. A tied pair keeps its initial gap:
     // only the relative displacement M u is constrained, or what it lacks of a shortening.
-    stencil_values = u;
-    for (std::size_t k = 0; k < present.size(); ++k)
+    from.stencil_values = u;
+    for (std::size_t k = 0; k < rows.size(); ++k)
       {
-        ContactRow &row = present[k];
+        ContactRow       &row       = rows[k];
+        const ContactRow &reference = from.rows[k];
         if (!row.has_partner)
           continue;
-        row.gap_vector = is_tied ? shortening * row.normal : reference[k].gap_vector;
+        row.gap_vector = is_tied ? shortening * row.normal : reference.gap_vector;
         if (input.obstacle != nullptr)
           {
             // The node keeps its place on an obstacle that moves.
             row.motion = pairing_method->motion(time);
             row.gap_vector -=
-              row.motion.since(reference[k].motion,
-                               row.motion.place(reference[k].motion.back(row.reference)));
+              row.motion.since(reference.motion,
+                               row.motion.place(reference.motion.back(row.reference)));
           }
         for (unsigned int d = 0; d < dim; ++d)
           {
-            row.gap_vector[d] += stencil_values(dim * row.slave + d);
+            row.gap_vector[d] += from.stencil_values(dim * row.slave + d);
             for (const StencilEntry &entry : row.stencil)
-              row.gap_vector[d] -= entry.weight * stencil_values(dim * entry.node + d);
+              row.gap_vector[d] -= entry.weight * from.stencil_values(dim * entry.node + d);
           }
         row.gap = row.gap_vector * row.normal;
       }
@@ -201,7 +211,7 @@ namespace Touchstone
       {
         if (!started)
           make_reference();
-        update_small_sliding(u);
+        set_gaps(present, reference, u);
       }
     apply_overlap();
     started = true;
@@ -221,7 +231,7 @@ namespace Touchstone
     if (small)
       {
         make_reference();
-        update_small_sliding(u);
+        set_gaps(present, reference, u);
       }
     else
       search(*displacement);
@@ -236,10 +246,59 @@ namespace Touchstone
   void
   ContactPair::remove_rows(const std::set<Index> &nodes)
   {
+    without_rows = nodes;
     slave_surface->set_without_rows(nodes);
     // Pairings hold copies of the faces.
-    pairing_method = make_pairing(input.parameters.search_distance);
-    started        = false;
+    search_distance = input.parameters.search_distance;
+    pairing_method  = make_pairing(search_distance);
+    started         = false;
+  }
+
+
+
+  void
+  ContactPair::remember(const PairingMemory &memory)
+  {
+    // Small sliding: the pairing is that of the reference state, made by an update.
+    if (small)
+      return;
+    pairing_method->commit_positions(*displacement);
+    pairing_method->remember(memory);
+  }
+
+
+
+  std::vector<ContactRow>
+  ContactPair::rows_of_all_nodes(const Vector &u)
+  {
+    std::vector<ContactRow> rows(present);
+    if (!master_surface)
+      return rows;
+    for (ContactRow &row : rows)
+      {
+        row.was_active = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          row.position[d] = row.reference[d] + (*displacement)(dim * row.slave + d);
+      }
+    if (!small || !reference_of_all)
+      {
+        Vector none;
+        none.reinit(*displacement);
+        const Vector &where = small ? none : *displacement;
+        slave_surface->set_without_rows({});
+        move_surfaces(where);
+        make_pairing(search_distance)->update(where, time, rows);
+        ++searches;
+        slave_surface->set_without_rows(without_rows);
+        if (small)
+          reference_of_all = {rows, with_stencils(rows)};
+      }
+    if (small)
+      {
+        rows = reference_of_all->rows;
+        set_gaps(rows, *reference_of_all, u);
+      }
+    return rows;
   }
 
 

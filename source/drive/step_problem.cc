@@ -138,6 +138,7 @@ namespace Touchstone
   StepProblem::begin_step(const double t)
   {
     time = t;
+    contact.begin_step(committed_u, committed_time);
     withdraw_points(contact);
     contact.enforcement().begin_step();
     pretension.begin_step(t);
@@ -164,8 +165,9 @@ namespace Touchstone
     const Newton newton(parameters);
     const Vector first_guess(u);
     unsigned int n_iterations = 0;
-    // Each round adds points inside slave faces where the one before has missed contact; what is
-    // missed after the last is told of by findings().
+    // Each round adds points inside slave faces where the one before has missed contact, and leaves
+    // rows to others where pairs have come to meet; what is missed after the last is told of by
+    // findings().
     constexpr unsigned int most_rounds = 10;
     for (unsigned int round = 0; round <= most_rounds; ++round)
       {
@@ -174,12 +176,15 @@ namespace Touchstone
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
           n_iterations += newton.solve(*this, observer, /*least=*/1);
-        if (round == most_rounds || !place_points(contact))
+        if (round == most_rounds)
+          break;
+        const bool formed = contact.find_formed(u), points = place_points(contact);
+        if (!formed && !points)
           break;
         // The state without these points tells where they are and no more: bodies have sprung back
         // in it, or overlap deeply, and what a point carried when the step began is far away.
         u = first_guess;
-        contact.begin_again();
+        contact.begin_again(committed_u, committed_time);
       }
     return n_iterations;
   }

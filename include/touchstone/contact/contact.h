@@ -8,6 +8,7 @@
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_rows.h>
+#include <touchstone/contact/nodes_without_rows.h>
 #include <touchstone/contact/velocity_constraints.h>
 
 #include <memory>
@@ -94,7 +95,7 @@ namespace Touchstone
     const std::set<Index> &
     held(const unsigned int p) const
     {
-      return held_of_pairs[p];
+      return without_rows.held[p];
     }
 
     /** @brief Normals of the planes of 'Symmetry' that owned nodes lie on, those that are none of
@@ -153,10 +154,23 @@ namespace Touchstone
     void
     set_points(unsigned int p, const std::vector<MaterialPoint> &points);
 
-    /** @brief Return to the committed state, but with the material points that have rows now: the
-     * step is solved again. */
+    /** @brief A step begins in the committed state: slave nodes leave their rows to others where
+     * pairs meet in it, and only there. Collective.
+     * @param u The committed displacement, @param time its time. */
     void
-    begin_again();
+    begin_step(const Vector &u, double time);
+
+    /** @brief Whether pairs meet at more nodes in the displacement of the last update() than when
+     * the step began: it is to begin_again() and be solved with the rows of these nodes left to
+     * others. Collective. */
+    bool
+    find_formed(const Vector &u);
+
+    /** @brief Return to the committed state, but with the material points that have rows now, and
+     * with the rows that find_formed() asks for: the step is solved again. Collective.
+     * @param u, time As for begin_step(). */
+    void
+    begin_again(const Vector &u, double time);
 
     /** @brief Update the geometry of the rows, and the slip, to the displacement @p u (owned dofs)
      * at time @p time. Collective. */
@@ -285,6 +299,10 @@ namespace Touchstone
     n_searches() const;
 
   private:
+    /** What adopt() takes for a row. */
+    void
+    adopt(const ContactRow &row, const std::vector<Vector> &fields, bool history);
+
     /** What @p of says of a row and its state at the end of the step, with @p weight, and at its
      * beginning, with the rest; nothing where the row is not active. */
     template <class OfRow>
@@ -315,7 +333,11 @@ namespace Touchstone
     std::shared_ptr<Enforcement>              method;
     CyclicConstraints                         cyclic;
     RowArray<ImpulseForce>                    impulse_forces;
-    std::vector<std::set<Index>>              held_of_pairs;
+    /** Of the committed state, and of the present one. */
+    NodesWithoutRows                      without_rows;
+    std::optional<NodesWithoutRowsFinder> without_rows_finder;
+    /** What find_formed() has found in this attempt of a step. */
+    std::optional<NodesWithoutRows> formed;
     /** Displacement with the ghosts that the surfaces need; empty without pairs. */
     Vector                             ghosted;
     mutable std::optional<GhostImport> import_ghosts;
@@ -324,10 +346,28 @@ namespace Touchstone
     bool   shares_faces = false;
     double present_time = 0.;
 
-    /** Of the first update: rows that pairs have in common with others go, see junction_nodes(),
-     * and those between supports, see held_nodes(). Collective. */
+    /** Of the first update: NodesWithoutRows. Collective. */
     void
-    remove_junction_rows(const Vector &u);
+    leave_rows(const Vector &u);
+
+    /** Rows of all pairs in the displacement of #ghosted, as if no node left its row to others.
+     * @param u The same displacement, owned dofs. Collective. */
+    RowsByPair
+    rows_of_all_nodes(const Vector &u);
+
+    /** Let other nodes be without rows: the committed state, of a displacement @p u and time, goes
+     * over to the new rows. Collective. */
+    void
+    change_rows(const NodesWithoutRows &nodes, const Vector &u, double time);
+
+    /** Make the rows of a pair as in a first update without displacements. Collective. */
+    void
+    make_rows_anew(std::size_t p, const std::set<Index> &nodes);
+
+    void
+    save_nodes_without_rows(ArchiveWriter &archive) const;
+    void
+    load_nodes_without_rows(const ArchiveReader &archive);
 
     /** After all pairs have been updated: rows of slave faces that several pairs cover.
      * Collective. */

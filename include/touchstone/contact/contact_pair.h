@@ -16,6 +16,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace Touchstone
@@ -251,6 +253,18 @@ namespace Touchstone
     void
     remove_rows(const std::set<Index> &nodes);
 
+    /** @brief The pairing of a committed state is that of the displacement that has been set, and
+     * remembers what an earlier one remembered of it. */
+    void
+    remember(const PairingMemory &memory);
+
+    /** @brief Rows of the displacement that has been set, as if no node left its row to others and
+     * none had been in contact; without obstacles. The rows of this pair stay as they are.
+     * Collective.
+     * @param u The displacement, of owned dofs. */
+    std::vector<ContactRow>
+    rows_of_all_nodes(const Vector &u);
+
     /** @brief Set the derivatives of the active rows in the displacement of the
      * last update(), for the consistent linearisation. Collective. */
     void
@@ -278,11 +292,12 @@ namespace Touchstone
     void
     load(const ArchiveReader &archive) override;
 
-    /** @brief The surfaces are at the displacement @p ghosted, see update(). */
+    /** @brief The surfaces are at the displacement @p ghosted, see update(), at a time. */
     void
-    set_displacement(const Vector &ghosted)
+    set_displacement(const Vector &ghosted, const double t)
     {
       displacement = &ghosted;
+      time         = t;
     }
 
   private:
@@ -299,14 +314,23 @@ namespace Touchstone
     Mirrors                    planes;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
-    std::vector<ContactRow> reference;
-    Vector                  stencil_values;
-    std::vector<double>     overlaps;
-    const Vector           *displacement = nullptr;
-    double                  time         = 0.;
-    double                  shortening   = 0.;
-    unsigned int            searches     = 0;
-    bool                    started      = false;
+    struct ReferenceRows
+    {
+      std::vector<ContactRow> rows;
+      Vector                  stencil_values;
+    };
+    ReferenceRows reference;
+    /** The same as if no node left its row to others; made when it is asked for. */
+    std::optional<ReferenceRows> reference_of_all;
+    /** Nodes that have no rows, and the reach of the pairing that the others have. */
+    std::set<Index>     without_rows;
+    double              search_distance = 0.;
+    std::vector<double> overlaps;
+    const Vector       *displacement = nullptr;
+    double              time         = 0.;
+    double              shortening   = 0.;
+    unsigned int        searches     = 0;
+    bool                started      = false;
 
     std::unique_ptr<Surface>
     make_surface(unsigned int                    body,
@@ -328,8 +352,12 @@ namespace Touchstone
     check_start(const Vector &u);
     void
     make_reference();
+    /** A vector with the ghosts that the stencils of rows need. Collective. */
+    Vector
+    with_stencils(const std::vector<ContactRow> &rows) const;
+    /** Set gaps of rows of the reference state in a displacement of owned dofs. */
     void
-    update_small_sliding(const Vector &u);
+    set_gaps(std::vector<ContactRow> &rows, ReferenceRows &from, const Vector &u) const;
     void
     apply_overlap();
     void

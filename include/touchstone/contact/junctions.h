@@ -11,6 +11,20 @@
 
 namespace Touchstone
 {
+  /** @brief Rows of pairs on this rank, by pair. */
+  using RowsByPair = std::vector<std::vector<ContactRow>>;
+
+  /** @brief The nodes that belong to surfaces of two or more pairs, the same on all ranks.
+   * Collective. */
+  std::set<Index>
+  nodes_of_several_pairs(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                         const Solid                                     &solid);
+
+  /** @brief Whether rows of a pair can determine all displacements of their nodes: it is tied or
+   * has friction. */
+  bool
+  can_stick(const ContactPair &pair);
+
   /**
    * @brief Slave nodes of pairs that are tied or have friction where the nodes that they face are
    * joined to them by other pairs, too: at an edge around which three or more bodies lie, or two
@@ -21,11 +35,15 @@ namespace Touchstone
    * mortar methods has no function of its own at such points: Bernardi, Maday and Patera
    * (1994); Puso (2004), Int. J. Numer. Methods Engng 59.
    *
-   * @param pairs After an update.
+   * @param rows  Of all slave nodes, as if none left its row to others.
+   * @param nodes nodes_of_several_pairs().
    * @return By pair; the same on all ranks. Collective.
    */
   std::vector<std::set<Index>>
-  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid);
+  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                 const RowsByPair                                &rows,
+                 const std::set<Index>                           &nodes,
+                 const Solid                                     &solid);
 
   /**
    * @brief Slave nodes that supports hold along the normal of their row, as they hold what the
@@ -34,13 +52,14 @@ namespace Touchstone
    * determine, and the multiplier space of mortar methods has no function of its own at such
    * points, either.
    *
-   * @param pairs    After an update.
+   * @param rows     Of all slave nodes, as if none left its row to others.
    * @param supports Directions in which displacements of owned nodes are prescribed; planes of
    *                 symmetry of the pair hold nodes as the mirrored half of the body would.
    * @return By pair; the same on all ranks. Collective.
    */
   std::vector<std::set<Index>>
   held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+             const RowsByPair                                &rows,
              const ContactPair::Mirrors                      &supports,
              const Solid                                     &solid);
 } // namespace Touchstone
