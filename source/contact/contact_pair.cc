@@ -35,8 +35,8 @@ namespace Touchstone
                                                    input.forest.boundary_name(id),
                                                    input.in_cycles);
       }
-    points_meet    = find_points();
-    edges_meet     = points_meet && find_edges();
+    points_meet     = find_points();
+    edges_meet      = points_meet && find_edges();
     search_distance = input.parameters.search_distance;
     pairing_method  = make_pairing(search_distance);
     if (points_meet)
