@@ -2,7 +2,7 @@
 // The line search of Newton's method on equations of one unknown, whose residuals and
 // active sets are known: a method that behaves costs no evaluation more, an increment
 // that makes things much worse is shortened, and a residual that a change of the active
-// set or a support on its way has raised shortens nothing. Increments that go to and fro
+// set or a support on its way has raised shortens nothing. Increments that oscillate
 // come to rest between.
 
 #include <touchstone/base/non_convergence.h>
@@ -118,7 +118,7 @@ main()
     {
       run("well-behaved", Equation(cubic, cubic_slope, 3.), search);
       run("increments too long", Equation(linear, soft, 3.), search);
-      run("increments go to and fro", Equation(root, root_slope, 3.), search);
+      run("increments oscillate", Equation(root, root_slope, 3.), search);
 
       Equation changing(linear, wild, 3.);
       changing.changes = [](unsigned int solves) { return solves < 4; };

@@ -219,7 +219,7 @@ namespace Touchstone
                        pairing.name,
                        "is for surfaces of different bodies, and '" + slave_body +
                          "' is slave and master",
-                       "set it to 'pointwise'; parts that do not hang together can also be bodies "
+                       "set it to 'pointwise'; parts that are not connected can also be bodies "
                        "of their own");
     // What lies within itself in the reference state cannot be told from the inside of the body.
     if (initial_overlap != Overlap::interference)

@@ -167,7 +167,7 @@ namespace Touchstone
         for (unsigned int a = 0; a < point.n; ++a)
           if (all[a] > 0 && point.nodes[a] == last->nodes[last->slave])
             all[a] += 2;
-      // Small weights make large coefficients: only where others would close a circle.
+      // Small weights make large coefficients: only where others would close a cycle.
       for (const double least : {Tolerances::least_share, 0.25 * Tolerances::least_share})
         {
           double       largest = 0.;
@@ -198,7 +198,7 @@ namespace Touchstone
                               [&](const MaterialPoint &other) {
                                 return other.nodes[other.slave] == point.nodes[a];
                               }) ||
-                  in_circle(trial))
+                  in_cycle(trial))
                 continue;
               point.slave = a;
               largest     = point.weights[a];

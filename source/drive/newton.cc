@@ -61,11 +61,11 @@ namespace Touchstone
         return !(state.force <= (monotone ? 1. : factor) * highest);
       }
 
-      /** Whether increments go to and fro: the force has not decreased for twice some iterations
+      /** Whether increments oscillate: the force has not decreased for twice some iterations
        * with one active set, as of a plastic body whose increments pass the yield surface each
        * time. From then on each increment must decrease it. */
       bool
-      goes_to_and_fro(const NewtonState &state)
+      oscillates(const NewtonState &state)
       {
         if (!on || monotone || forces.size() < std::size_t(2 * turns) || !state.prescribed ||
             state.changes > 0 || state.signature != last.signature ||
@@ -130,7 +130,7 @@ namespace Touchstone
       {
         state        = problem.residual(damping);
         n_iterations = iteration;
-        if (iteration > 0 && (line_search.failed(state) || line_search.goes_to_and_fro(state)))
+        if (iteration > 0 && (line_search.failed(state) || line_search.oscillates(state)))
           state = line_search.shorten(problem, damping);
         if (iteration > 0)
           observer(iteration, state, linear);
@@ -158,7 +158,7 @@ namespace Touchstone
         // Enforcement::update_active_set() and doc/theory.md 5, "Cycles".
         if (state.changes > 0 && !seen.insert(state.signature).second &&
             ++damping > 2 + parameters.maximum_iterations / 4)
-          throw ActiveSetCycle("the active set goes in circles: " + std::to_string(state.changes) +
+          throw ActiveSetCycle("the active set cycles: " + std::to_string(state.changes) +
                                " rows keep changing their state");
         line_search.start_from(state);
         problem.linearize();

@@ -74,7 +74,7 @@ end
 
 
 def patches(step):
-    """Nodes that general contact presses, and groups of them that hang together on the surface: a fold that
+    """Nodes that general contact presses, and connected groups of them on the surface: a fold that
     touches another has one on each."""
     nodes, cells = crossings.read(result.folder / f"solution_{step:04d}.vtu")
     near = defaultdict(set)

@@ -141,8 +141,8 @@ namespace Touchstone
             for (const StencilEntry &entry : row.stencil)
               if (entry.weight < 0.)
                 refers.insert({{row.pair, row.slave}, {row.pair, entry.node}});
-        // Nodes that refer to none are last in the order, as their owners know; what is left refers
-        // in a circle.
+        // Nodes that refer to none are last in the order, as their owners know; what is left is
+        // on a cycle of references, or leads to one.
         int left = 1;
         for (int removed = 1; removed > 0 && left > 0;)
           {

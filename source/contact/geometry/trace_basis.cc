@@ -14,7 +14,7 @@ namespace Touchstone
   bool
   TraceBasis::needed(const Face &face, const AffineConstraints<double> &hanging)
   {
-    // All components of a node hang together, so the constraint of the first one tells.
+    // A hanging node has all components constrained alike, so the first one tells.
     return std::any_of(face.nodes.begin(), face.nodes.begin() + face.n_nodes(), [&](const Index m) {
       return hanging.is_constrained(dim * m);
     });

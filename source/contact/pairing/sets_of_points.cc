@@ -200,7 +200,7 @@ namespace Touchstone
 
 
   bool
-  in_circle(std::vector<MaterialPoint> points)
+  in_cycle(std::vector<MaterialPoint> points)
   {
     // Rows that refer to no other are put aside, one after the other.
     while (!points.empty())

@@ -42,10 +42,10 @@ namespace Touchstone
   std::vector<MaterialPoint>
   deepest_of_neighbours(const std::vector<MaterialPoint> &wanted);
 
-  /** @brief Whether rows refer to each other's slave nodes in a circle: an iterative solver, which
+  /** @brief Whether rows refer to each other's slave nodes in a cycle: an iterative solver, which
    * eliminates them, could not do so. */
   bool
-  in_circle(std::vector<MaterialPoint> points);
+  in_cycle(std::vector<MaterialPoint> points);
 } // namespace Touchstone
 
 #endif
