@@ -55,7 +55,8 @@ for name in "one", "two":
     (label, (x, p)), = curves("pressure", name)[0].items()
     check(label == "contact", f"the pair is called {label}")
     check(len(x) == 4 and x == sorted(x), f"line at {x}")
-    check(max(p) == max(node.pressure for face in plot.faces(folder / name) for node in face) > 0, f"pressures {p}")
+    check(max(p) == max(node.pressure for face in plot.faces(folder / name) for node in face) > 0,
+          f"pressures {p}")
 
 
 def grid(point, pressure, m, n):
@@ -63,18 +64,21 @@ def grid(point, pressure, m, n):
     def node(i, j):
         return argparse.Namespace(position=point(i, j), pressure=pressure(i, j))
 
-    return [[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)] for i in range(m) for j in range(n)]
+    return [[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
+            for i in range(m) for j in range(n)]
 
 
-# On a curved surface the line is a plane section of it, and so it is where no row of nodes lies in the plane: half a bore
-# and a ring about the axis.
+# On a curved surface the line is a plane section of it, and so it is where no row of nodes lies in the
+# plane: half a bore, and a ring about the axis.
 bore = grid(lambda i, j: (2 * math.cos(i / 4), 2 * math.sin(i / 4), j), lambda i, j: 9 * (i == 4) + (j == 1), 12, 2)
 for axis, count in ((0, 13), (1, 13), (2, 3)):
     check(sum(not math.isnan(x) for x, _ in plot.section(bore, axis)) == count, f"section along {axis} of a bore")
-ring = grid(lambda i, j: ((2 + i) * math.cos(j / 7), (2 + i) * math.sin(j / 7), 3), lambda i, j: 5 - i + (j == 4), 4, 11)
+ring = grid(lambda i, j: ((2 + i) * math.cos(j / 7), (2 + i) * math.sin(j / 7), 3),
+            lambda i, j: 5 - i + (j == 4), 4, 11)
 for axis in (0, 1):
     line = [p for p in plot.section(ring, axis) if not math.isnan(p[0])]
-    check(len(line) >= 5 and sorted(line, key=lambda p: p[0]) in (line, line[::-1]), f"section along {axis} of a ring {line}")
+    check(len(line) >= 5 and sorted(line, key=lambda p: p[0]) in (line, line[::-1]),
+          f"section along {axis} of a ring {line}")
 check(len({node.position for face in plot.faces(folder / "two") for node in face}) == 16, "surface of two ranks")
 
 # The module that reads runs.
