@@ -79,6 +79,10 @@ for axis in (0, 1):
     line = [p for p in plot.section(ring, axis) if not math.isnan(p[0])]
     check(len(line) >= 5 and sorted(line, key=lambda p: p[0]) in (line, line[::-1]),
           f"section along {axis} of a ring {line}")
+# A cap, whose pole has the largest pressure: the plane across the axis only touches it.
+cap = grid(lambda i, j: (i - 2, j - 2, ((i - 2)**2 + (j - 2)**2) / 9), lambda i, j: 3 * (i == j == 2), 4, 4)
+for axis, count in ((0, 5), (1, 5), (2, 5)):
+    check(len(plot.section(cap, axis)) == count, f"section along {axis} of a cap")
 check(len({node.position for face in plot.faces(folder / "two") for node in face}) == 16, "surface of two ranks")
 
 # The module that reads runs.
