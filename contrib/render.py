@@ -52,8 +52,8 @@ MARGIN, TEXT, SMALL = 16, 27, 23
 COLOURS = ["3b4cc0", "4f69d9", "6788ee", "82a6fb", "9dbdff", "b7cff9", "cedaeb", "e2dad5",
            "f0cdbb", "f7b89c", "f6a081", "ee8468", "df634e", "cb3e38", "b40426"]
 # What fields are made of, by the beginnings of their names; others have no unit.
-DIMENSIONS = {"displacement|gap|slip": "length", "velocity": "length/time", "reaction": "force",
-              "stress|von_mises|hydrostatic_pressure|pressure|traction": "force/length^2"}
+DIMENSIONS = {"displacement|gap|slip": "length", "velocity": "length/time", "reaction|force": "force", "area": "length^2",
+              "(cell_)?(stress|von_mises)|hydrostatic_pressure|pressure|traction": "force/length^2"}
 
 
 def numbers(text):

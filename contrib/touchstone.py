@@ -65,6 +65,14 @@ class Run:
         """Nodes of the slave surfaces, vtu.Node, at a time, or at the last."""
         return surface(self.folder, time)
 
+    def faces(self, time=None):
+        """Faces of the slave surfaces, each with its four nodes in order around it."""
+        return faces(self.folder, time)
+
+    def pairs(self):
+        """Names of the contact pairs; the pair of a node is a place in this list."""
+        return pairs(self.folder)
+
     def bodies(self, time=None):
         """Arrays of the bodies by name, of each rank; 'position' are the points. Points between cells
         come once for each cell."""
@@ -127,3 +135,15 @@ def surface(folder, time=None):
     nodes = {(node.position, node.pair): node
              for file in files_at(folder, "contact", time) for node in vtu.read(file)}
     return list(nodes.values())
+
+
+def faces(folder, time=None):
+    """Faces of the contact surface at a time, or the last, of all ranks."""
+    return [face for file in files_at(folder, "contact", time) for face in vtu.faces(file)]
+
+
+def pairs(folder):
+    """Names of the contact pairs in the order of the scene."""
+    text = (folder / "parameters.prm").read_text(encoding="utf-8")
+    names = re.search(r"^set Contact pairs *= *(.*)$", text, re.M)
+    return [name.strip() for name in names[1].partition("#")[0].split(",")] if names else []

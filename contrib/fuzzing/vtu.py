@@ -64,19 +64,39 @@ def pieces(path):
         yield found
 
 
+def nodes_of(arrays):
+    """The nodes of a piece of a contact surface in the order of its points; none of other pieces."""
+    def vector(name, i):
+        return arrays[name][3 * i:3 * i + 3]
+
+    return [Node(vector("position", i), int(arrays["pair"][i]), round(arrays["status"][i]),
+                 arrays["gap"][i], arrays["pressure"][i], vector("normal", i), vector("traction", i),
+                 vector("slip", i), vector("displacement", i),
+                 vector("force", i) if "force" in arrays else ())
+            for i in range(len(arrays.get("pair", ())))]
+
+
 def read(path):
     """All nodes of a contact surface, each once."""
     nodes = {}
     for arrays in pieces(path):
-        if "pair" not in arrays:
-            continue
-        for i in range(len(arrays["pair"])):
-            def vector(name, i=i, arrays=arrays):
-                return arrays[name][3 * i:3 * i + 3]
-
-            node = Node(vector("position"), int(arrays["pair"][i]), round(arrays["status"][i]),
-                        arrays["gap"][i], arrays["pressure"][i], vector("normal"),
-                        vector("traction"), vector("slip"), vector("displacement"),
-                        vector("force") if "force" in arrays else ())
+        for node in nodes_of(arrays):
             nodes.setdefault((node.position, node.pair), node)
     return list(nodes.values())
+
+
+def faces(path):
+    """The faces of a contact surface as four nodes, one after the other around the face; those of
+    degree 2 are four faces."""
+    text = path.read_text(encoding="utf-8", errors="replace")
+    for piece, arrays in zip(re.findall(r"<Piece (.*?)</Piece>", text, re.S), pieces(path)):
+        nodes = nodes_of(arrays)
+        if not nodes:
+            continue
+        corners, ends = (unpack(re.search(f'Name="{name}"[^>]*>\\s*(.*?)\\s*</DataArray>', piece, re.S)[1], "i")
+                         for name in ("connectivity", "offsets"))
+        for begin, end in zip((0, *ends), ends):
+            face = [nodes[i] for i in corners[begin:end]]
+            # Corners, middles of the edges, centre.
+            parts = ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)) if len(face) == 9 else ((0, 1, 2, 3),)
+            yield from ([face[i] for i in part] for part in parts)

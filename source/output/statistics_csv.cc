@@ -27,7 +27,9 @@ namespace Touchstone
       {"reaction", "force"},
       {"area", "length^2"},
       {"max pressure", "force/length^2"},
-      {"max penetration", "length"}};
+      {"max penetration", "length"},
+      {"shortening", "length"},
+      {"tension", "force"}};
 
     std::string
     unit(const std::string &name)

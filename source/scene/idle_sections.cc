@@ -74,8 +74,9 @@ namespace Touchstone
                              did_you_mean(entry.key, known),
                            "no friction law has it; the pair has no friction, so the whole "
                                          "subsection can be removed");
+      // The entries are not set yet: the pair still has the default behaviour.
       sentences.push_back("section '" + section + "' has no effect: 'Behaviour' of the pair is '" +
-                          pair.behaviour.name + "'");
+                          text.value(pair.section(), "Behaviour", pair.behaviour.name) + "'");
     };
     for (const ContactPairParameters &pair : scene.pairs)
       take(pair);

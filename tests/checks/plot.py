@@ -32,7 +32,7 @@ run("two", SCENE, {STEPS: 4}, ranks=2, vtu=1)
 
 def curves(kind, name="one", **options):
     """Curves by their labels, and the names of the axes."""
-    settings = {"column": None, "over": None, "axis": "x", "width": 1e-3, "steps": 6,
+    settings = {"column": None, "over": None, "axis": "x", "steps": 6,
                 "runs": [name], **options}
     found, *axes = plot.curves(kind, folder / name, argparse.Namespace(**settings))
     return {label: (list(x), list(y)) for label, x, y in found}, axes
@@ -52,16 +52,38 @@ newton, _ = curves("newton")
 check(len(newton) == 4 and [len(y) for _, y in newton.values()] == one.column("Newton iterations"),
       f"{newton}")
 for name in "one", "two":
-    (x, p), = curves("pressure", name)[0].values()
-    nodes = plot.surface(folder / name)
+    (label, (x, p)), = curves("pressure", name)[0].items()
+    check(label == "contact", f"the pair is called {label}")
     check(len(x) == 4 and x == sorted(x), f"line at {x}")
-    check(max(p) == max(node.pressure for node in nodes) > 0, f"pressures {p}")
-# On a curved surface the line is a plane cut of it.
-bore = [argparse.Namespace(position=(2 * math.cos(a / 8), 2 * math.sin(a / 8), z), pressure=a + (z == 1))
-        for a in range(9) for z in (0, 1, 2)]
-for axis, count in ((0, 9), (1, 9), (2, 3)):
-    check(len(plot.cut(bore, axis, 1e-3)) == count, f"line along axis {axis} on a cylinder")
-check(len({node.position for node in plot.surface(folder / "two")}) == 16, "surface of two ranks")
+    check(max(p) == max(node.pressure for face in plot.faces(folder / name) for node in face) > 0,
+          f"pressures {p}")
+
+
+def grid(point, pressure, m, n):
+    """Faces of a grid of m by n cells."""
+    def node(i, j):
+        return argparse.Namespace(position=point(i, j), pressure=pressure(i, j))
+
+    return [[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
+            for i in range(m) for j in range(n)]
+
+
+# On a curved surface the line is a plane section of it, and so it is where no row of nodes lies in the
+# plane: half a bore, and a ring about the axis.
+bore = grid(lambda i, j: (2 * math.cos(i / 4), 2 * math.sin(i / 4), j), lambda i, j: 9 * (i == 4) + (j == 1), 12, 2)
+for axis, count in ((0, 13), (1, 13), (2, 3)):
+    check(sum(not math.isnan(x) for x, _ in plot.section(bore, axis)) == count, f"section along {axis} of a bore")
+ring = grid(lambda i, j: ((2 + i) * math.cos(j / 7), (2 + i) * math.sin(j / 7), 3),
+            lambda i, j: 5 - i + (j == 4), 4, 11)
+for axis in (0, 1):
+    line = [p for p in plot.section(ring, axis) if not math.isnan(p[0])]
+    check(len(line) >= 5 and sorted(line, key=lambda p: p[0]) in (line, line[::-1]),
+          f"section along {axis} of a ring {line}")
+# A cap, whose pole has the largest pressure: the plane across the axis only touches it.
+cap = grid(lambda i, j: (i - 2, j - 2, ((i - 2)**2 + (j - 2)**2) / 9), lambda i, j: 3 * (i == j == 2), 4, 4)
+for axis, count in ((0, 5), (1, 5), (2, 5)):
+    check(len(plot.section(cap, axis)) == count, f"section along {axis} of a cap")
+check(len({node.position for face in plot.faces(folder / "two") for node in face}) == 16, "surface of two ranks")
 
 # The module that reads runs.
 touchstone = sys.modules["touchstone"]

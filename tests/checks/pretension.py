@@ -27,6 +27,8 @@ def balance(result, bound=1e-7):
 pull, clamp = balance(joint)
 below("half of the tension", relative(pull[0], 25), 1e-7)
 below("tension", relative(pull[1], 50), 1e-7)
+columns = (joint.folder / "statistics.csv").read_text(encoding="utf-8").split("\n", 1)[0].split(",")
+check({"cut.tension[force]", "cut.shortening[length]"} <= set(columns), f"units of {columns}")
 # Locked: the length stays, the tension grows by a part of the load, and by all of it in the end.
 length = joint.column("cut: shortening")
 for later in length[2:]:
