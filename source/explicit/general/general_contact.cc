@@ -36,8 +36,9 @@ namespace Touchstone
      * costs more than a gap that is wider. */
     constexpr double opening = 3., least_missing = 0.5;
 
-    /** After so many checks that found nothing but rows that are fully open it is no use to go on:
-     * what changes in them are places and normals alone. */
+    /** After so many checks, of which that with free velocities counts as one, that found nothing
+     * but rows that are fully open it is no use to go on: what changes in them are places and
+     * normals alone. */
     constexpr unsigned int most_in_vain = 3;
 
     /** For sums and products of lengths that have to be bounds. */
