@@ -114,7 +114,7 @@ namespace Touchstone
         const auto found = project_within(reach, u, before, v, time, step, acting);
         if (found == GeneralContact::Crossings::none)
           return true;
-        if (found == GeneralContact::Crossings::rows || reach == farthest)
+        if (found != GeneralContact::Crossings::too_far || reach == farthest)
           break;
       }
     ++counted.halvings;
@@ -236,7 +236,7 @@ namespace Touchstone
           }
         for (unsigned int node = 0; node < local.size(); ++node)
           v[local[node]] = v_free[node];
-        if (found == GeneralContact::Crossings::too_far || round == most_rounds)
+        if (found != GeneralContact::Crossings::rows || round == most_rounds)
           return found;
         if (general->must_lay_out())
           lay_out(u);

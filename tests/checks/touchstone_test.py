@@ -262,6 +262,14 @@ def contact_gives(result, allowed):
           result.value("contact_work", "most_energy_given_in_a_cycle") / total, allowed)
 
 
+def rounds_are_few(result, many, halved):
+    """General contact needs more than five rounds in this part of the cycles at most, and so many are halved."""
+    cycles = sum(result.column("cycles"))
+    for name, key, bound in (("of more than five rounds", "cycles_with_more_than_five", many),
+                             ("that are halved", "halvings", halved)):
+        below(f"{result}, cycles {name}", result.value("general_contact", key) / cycles, bound)
+
+
 # Figures that are round-off or chance, and iterations of solvers.
 _NOT_COMPARED = {"max_penetration", "contact", "damped", "linear_total", "linear_mean"}
 

@@ -24,16 +24,22 @@ namespace Touchstone
 
     /** Where many places touch, one or the other always asks for an earlier kind of rows: after so
      * many rounds none waits for others. */
-    constexpr unsigned int rounds_in_order = 3;
+    constexpr unsigned int rounds_in_order = 2;
 
     /** Nodes of the coarser side that pressed on a face in one of so many cycles are looked at with
      * the free velocities: they are mostly over an edge of the face, where they do not count as
      * touching, and would ask for a round of their own. */
     constexpr std::uint64_t cycles_remembered = 16;
 
-    /** Of what surfaces are moved inwards: by so much more a gap opens that was kept open in vain.
-     */
-    constexpr double least_opening = 0.25;
+    /** A gap that was kept open in vain opens by so many times what is missing, or this part of
+     * what surfaces are moved inwards by: faces and normals turn on as it opens, and each round
+     * costs more than a gap that is wider. */
+    constexpr double opening = 3., least_missing = 0.5;
+
+    /** After so many checks, of which that with free velocities counts as one, that found nothing
+     * but rows that are fully open it is no use to go on: what changes in them are places and
+     * normals alone. */
+    constexpr unsigned int most_in_vain = 3;
 
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
@@ -371,7 +377,8 @@ namespace Touchstone
     most_in_cycle = std::max(reach * of_impulses * moves.largest, least_margin * smallest);
     if (renew || !candidates_hold(u, moved))
       renew_candidates(u, v, step, moves.largest);
-    cycle = step;
+    cycle          = step;
+    checks_in_vain = 0;
     ++cycles;
     follow_insets(u, v_before, step_before);
     if (!candidates.any())
@@ -403,8 +410,7 @@ namespace Touchstone
     travels = moves.distance;
     find_near();
     import(u, v);
-    return check_motion(/*ahead=*/false, round <= rounds_in_order) ? Crossings::rows
-                                                                   : Crossings::none;
+    return check_motion(/*ahead=*/false, round <= rounds_in_order);
   }
 
 
@@ -414,7 +420,7 @@ namespace Touchstone
   // if something still crosses. With free velocities all that is pressed together crosses, and
   // touches already: only what is new there is worth a look, and of the other side what has pressed
   // lately.
-  bool
+  GeneralContact::Crossings
   GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
     looks_ahead = ahead;
@@ -431,39 +437,54 @@ namespace Touchstone
           // A row that is not there yet.
           int is_new = 0;
           for (; known < found.size(); ++known)
-            {
-              const auto there = numbers.find(found[known].key);
-              is_new |= there == numbers.end() || !rows[there->second].used;
-            }
+            is_new |= taking_part(found[known].key) == nullptr;
           goes_on = !in_order || Utilities::MPI::max(is_new, nodes.communicator()) == 0;
         }
     if (goes_on && !ahead)
       for (const OpenFaces &faces : open_faces)
         keep_until(faces);
     // First of all of them: one place can be found more than once.
+    int helps = 0;
     if (!ahead)
       for (Row &row : found)
-        row.more = opens_more(row);
+        {
+          const Row *const there = taking_part(row.key);
+          helps |= there == nullptr || !there->fully_open;
+          row.more = opens_more(row);
+        }
     for (const Row &row : found)
       use(row);
-    int last[2] = {new_rows, !found.empty()};
+    int last[3] = {new_rows, !found.empty(), helps};
     Utilities::MPI::max(last, nodes.communicator(), last);
-    new_rows = last[0] > 0;
-    return last[1] > 0;
+    new_rows       = last[0] > 0;
+    checks_in_vain = last[2] > 0 ? 0 : checks_in_vain + 1;
+    if (last[1] == 0)
+      return Crossings::none;
+    return !ahead && checks_in_vain >= most_in_vain ? Crossings::in_vain : Crossings::rows;
   }
 
 
 
-  // As faces turn and nodes slide, a row that takes part can leave open what crosses; of an overlap
-  // that is close to what surfaces are moved inwards by it can do so in the shortest of cycles.
+  const GeneralContact::Row *
+  GeneralContact::taking_part(const RowKey &key) const
+  {
+    const auto there = numbers.find(key);
+    return there != numbers.end() && rows[there->second].used ? &rows[there->second] : nullptr;
+  }
+
+
+
+  // As faces turn and nodes slide, a row that takes part can leave open what crosses, round after
+  // round; of an overlap that is close to what surfaces are moved inwards by it can do so in the
+  // shortest of cycles.
   double
   GeneralContact::opens_more(const Row &row) const
   {
-    const auto there = numbers.find(row.key);
-    if (there == numbers.end() || !rows[there->second].used)
+    const Row *const there = taking_part(row.key);
+    if (there == nullptr)
       return 0.;
-    return rows[there->second].more +
-           std::max(least_opening * inset * row.size, -inner_gap_at_end(row));
+    return there->more +
+           opening * std::max(least_missing * inset * row.size, -inner_gap_at_end(row));
   }
 
 

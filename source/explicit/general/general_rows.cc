@@ -50,7 +50,7 @@ namespace Touchstone
                                const double                       step)
   {
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (const Row &from = rows[k]; from.used)
+      if (Row &from = rows[k]; from.used)
         {
           ImpulseRow &row = solver.rows[first + k];
           std::size_t s   = row.first;
@@ -64,10 +64,12 @@ namespace Touchstone
             row.tangential = tangential_projector(row.normal);
           set_lever(solver, row, x, from.normal, from.size);
           const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
-          // Only of an overlap: a gap that opens by more would give energy.
-          const double more = from.gap < 0. ? from.more : 0.;
-          const double end  = std::min(0., allowed_gap(from.gap, closing, from.size) + more);
-          row.allowed       = ((from.gap - end) / step) * row.normal;
+          // An impulse does work on the mean of the velocities before and after: as far as the
+          // sides were closing, opening takes none.
+          const double allowed = allowed_gap(from.gap, closing, from.size);
+          const double most    = std::max(from.gap < 0. ? 0. : allowed, from.gap + closing);
+          from.fully_open      = allowed + from.more >= most;
+          row.allowed = ((from.gap - std::min(most, allowed + from.more)) / step) * row.normal;
           solver.near.push_back(first + k);
         }
   }

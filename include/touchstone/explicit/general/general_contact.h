@@ -118,7 +118,9 @@ namespace Touchstone
       /** Rows of the present cycle have been added. */
       rows,
       /** Nodes move so far that there may be other candidates. */
-      too_far
+      too_far,
+      /** What crosses has rows that are open as far as they may be, as in the rounds before. */
+      in_vain
     };
 
     /** @brief Look whether surfaces cross with the velocities @p v, and add the rows that prevent
@@ -231,6 +233,8 @@ namespace Touchstone
       /** By how much the gap must open in this cycle beyond what it may end with, length: it was
        * to be kept open before, and surfaces that are moved inwards crossed all the same. */
       double more = 0.;
+      /** It is open as far as that takes no work. */
+      bool fully_open = false;
       /** Takes part in this cycle. */
       bool used = false;
       /** The pair of edges that it is of, if any. */
@@ -494,6 +498,9 @@ namespace Touchstone
     };
     /** Crossings of the last check, with the rows that prevent them. */
     std::vector<Row> found;
+    /** Checks of the cycle, one after the other up to now, that found nothing but rows that were
+     * fully open. */
+    unsigned int checks_in_vain = 0;
 
     /** Surfaces as they stand with the displacement @p u and, for the check of crossings, moved
      * inwards by a part of the size of their faces: sets the candidates within a distance @p reach
@@ -513,6 +520,9 @@ namespace Touchstone
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
     use(const Row &row);
+    /** The row of the key of what crosses if that takes part already, or null. */
+    const Row *
+    taking_part(const RowKey &key) const;
     /** Row::more of a row for what crosses. */
     double
     opens_more(const Row &row) const;
@@ -582,8 +592,8 @@ namespace Touchstone
     /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
      * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
      * touch. @param in_order Rows of a kind come only where no earlier kind brings new ones.
-     * @return whether rows have been added or changed, on any rank. Collective. */
-    bool
+     * @return rows if some have been added or changed, on any rank. Collective. */
+    Crossings
     check_motion(bool ahead, bool in_order);
     /** Its parts: pairs of faces that no direction tells apart; what belongs to one, which is added
      * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
