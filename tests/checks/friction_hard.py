@@ -25,6 +25,11 @@ for enforcement in EXACT_ENFORCEMENTS:
     below(f"driven, {enforcement}, force {force} differs from -9.6", relative(force, -9.6), 1e-6)
     below(f"driven, {enforcement}, force {force} differs from {answer}", relative(force, answer),
           1e-8)
+# Far from the origin, where positions have a round-off of 1e-6 of the slip.
+far = "1e5, 2e5, -1e5"
+below("driven, far away, force", relative(run(
+    "driven_far_away", checks / "friction_driven_nodes.prm",
+    {"Body base/Geometry/Move": far, "Body block/Geometry/Move": far}).force("slope")[0], answer), 1e-6)
 
 # Supports move slave and master nodes past each other: they slide with all of their friction, however
 # little they slide, and the rest follows the motion.

@@ -39,7 +39,8 @@ namespace Touchstone
       }
     reference_positions.reinit(solid.zero_vector());
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
-    owned_start_positions = reference_positions;
+    owned_displacement.reinit(reference_positions);
+    owned_start_displacement = owned_displacement;
   }
 
 
@@ -65,12 +66,13 @@ namespace Touchstone
       {
         positions.present.reinit(solid.owned, needed, solid.communicator);
         positions.start.reinit(solid.owned, needed, solid.communicator);
-        positions.start = owned_start_positions;
-        positions_known = needed;
+        positions.reference.reinit(solid.owned, needed, solid.communicator);
+        positions.start     = owned_start_displacement;
+        positions.reference = reference_positions;
+        positions_known     = needed;
       }
-    owned_positions = reference_positions;
-    owned_positions += u;
-    positions.present = owned_positions;
+    owned_displacement = u;
+    positions.present  = owned_displacement;
   }
 
 
@@ -254,10 +256,10 @@ namespace Touchstone
         row.kinematics.slip_gradient.clear();
         row.kinematics.spin_gradient.clear();
       }
-    positions.start       = positions.present;
-    owned_start_positions = owned_positions;
-    committed             = present;
-    committed_time        = time;
+    positions.start          = positions.present;
+    owned_start_displacement = owned_displacement;
+    committed                = present;
+    committed_time           = time;
   }
 
 
@@ -292,8 +294,7 @@ namespace Touchstone
     time = committed_time = archive.get<double>("committed time");
     // The slip of the next step counts from the committed displacement of the checkpoint, whereas
     // the update that made the rows was in the reference state.
-    owned_start_positions = reference_positions;
-    owned_start_positions += archive.field("displacement");
+    owned_start_displacement = archive.field("displacement");
     positions_known.clear(); // ghosts are imported by the next update
     committed = present;
   }

@@ -16,7 +16,7 @@ namespace Touchstone
   {
     Tensor<1, dim> x;
     for (unsigned int d = 0; d < dim; ++d)
-      x[d] = present(dim * node + d);
+      x[d] = reference(dim * node + d) + present(dim * node + d);
     return x;
   }
 
@@ -28,6 +28,22 @@ namespace Touchstone
     Tensor<1, dim> result;
     for (unsigned int d = 0; d < dim; ++d)
       result[d] = present(dim * node + d) - start(dim * node + d);
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  NodePositions::between(const Index other, const Index node) const
+  {
+    // The difference of neighbouring reference positions has no round-off, but for that of the
+    // mesh.
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Index i = dim * node + d, j = dim * other + d;
+        result[d] = (reference(i) - reference(j)) + (present(i) - present(j));
+      }
     return result;
   }
 
@@ -74,13 +90,17 @@ namespace Touchstone
     double of_obstacle = 1.;
     if (!history.anchor.empty())
       of_obstacle = on_obstacle(row) ? 1. - sum_of_weights(history.anchor) : 0.;
-    Tensor<1, dim> result =
-      row.friction->small ? row.gap_vector - history.anchor_offset
-      : row.motion.turned
-        ? row.position - of_obstacle * row.motion.place(Point<dim>(history.anchor_offset))
-        : row.position - of_obstacle * row.motion.shift - of_obstacle * history.anchor_offset;
+    if (row.friction->small)
+      return row.gap_vector - history.anchor_offset;
+    // The weights of the anchor and of the obstacle add up to one.
+    Tensor<1, dim> result;
+    if (of_obstacle != 0.)
+      result =
+        of_obstacle * (row.motion.turned
+                         ? row.position - row.motion.place(Point<dim>(history.anchor_offset))
+                         : row.position - Point<dim>(history.anchor_offset) - row.motion.shift);
     for (const StencilEntry &entry : history.anchor)
-      result -= entry.weight * positions.at(entry.node);
+      result -= entry.weight * positions.between(row.slave, entry.node);
     return result;
   }
 

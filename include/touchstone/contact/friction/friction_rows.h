@@ -102,7 +102,7 @@ namespace Touchstone
     ContactRows rows;
     /** Positions of owned nodes: in the reference state, now, and when the step began; and those
      * of all nodes that rows refer to. */
-    Vector           reference_positions, owned_positions, owned_start_positions;
+    Vector           reference_positions, owned_displacement, owned_start_displacement;
     NodePositions    positions;
     dealii::IndexSet positions_known;
     double           time = 0., committed_time = 0.;

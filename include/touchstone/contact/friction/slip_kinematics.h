@@ -10,17 +10,24 @@
 namespace Touchstone
 {
   /** @brief Positions of nodes, now and when the step began, with the ghosts that rows refer
-   * to. */
+   * to. Reference positions and displacements are apart: slip is a difference of displacements,
+   * which would have the round-off of positions, large where a scene lies far from the origin. */
   struct NodePositions
   {
-    Vector present, start;
+    /** Reference positions, and displacements now and when the step began. */
+    Vector reference, present, start;
 
+    /** @brief Present position. */
     dealii::Tensor<1, dim>
     at(Index node) const;
 
     /** @brief Displacement since the step began. */
     dealii::Tensor<1, dim>
     displacement(Index node) const;
+
+    /** @brief Present position of @p node relative to that of @p other. */
+    dealii::Tensor<1, dim>
+    between(Index other, Index node) const;
   };
 
   /** @brief Displacement v of the slave node relative to its convected contact point, with its
