@@ -190,23 +190,48 @@ namespace Touchstone
       for (const double stiffness : stiff)
         longest = std::max(longest, 10. * found.largest / stiffness);
     if (const auto direction = broyden.advance(found.missing, {stiff, found.largest, longest}))
-      throw NothingResists(describe(*direction));
+      give_up(*direction, results);
     place();
     return true;
   }
 
 
 
+  void
+  RigidTools::give_up(const Numbers &direction, const std::vector<PairResult> &results) const
+  {
+    // Where all nodes slide, friction does not change with the motion of the obstacle. It could
+    // hold what it is larger than: then the bodies have moved too far in this step, as below a
+    // roller that they turn, and nodes stick in a shorter one. Loads beyond it have no equilibrium.
+    double       load = 0., of_bodies = 0.;
+    unsigned int slides = 0;
+    for (std::size_t k = 0; k < direction.size(); ++k)
+      {
+        const RigidTool   &tool = tools[unknowns[k].tool];
+        const unsigned int c    = unknowns[k].component;
+        load += direction[k] * tool.present.load[c] / unknowns[k].scale;
+        of_bodies += direction[k] * tool.present.contact[c] / unknowns[k].scale;
+        for (const unsigned int p : tool.pairs())
+          slides += results[p].slip;
+      }
+    if (slides > 0 && std::abs(of_bodies) > std::abs(load))
+      throw ToolSlides(name(direction) + " slides on the bodies in the whole step, although " +
+                         "friction could hold it: they move it too far in one step",
+                       step);
+    throw NothingResists("nothing resists the motion of " + name(direction) + " against its load");
+  }
+
+
+
   std::string
-  RigidTools::describe(const Numbers &direction) const
+  RigidTools::name(const Numbers &direction) const
   {
     std::size_t main = 0;
     for (std::size_t k = 0; k < direction.size(); ++k)
       if (std::abs(direction[k]) > std::abs(direction[main]))
         main = k;
     const Unknown &unknown = unknowns[main];
-    return "nothing resists the motion of the obstacle '" + tools[unknown.tool].name() +
-           "' along '" + FreeMotionParameters::word(unknown.component) +
-           "', one of its 'Free directions', against its load";
+    return "the obstacle '" + tools[unknown.tool].name() + "' along '" +
+           FreeMotionParameters::word(unknown.component) + "', one of its 'Free directions',";
   }
 } // namespace Touchstone

@@ -54,6 +54,14 @@ below("displacement with adaptive meshes", relative(
     .column("obstacle ball: displacement z")[-1],
     run("fine", sphere, {"Discretisation/Refinement factor": 2}).column("obstacle ball: displacement z")[-1]), 0.02)
 
+# A slab moves below a roller that turns freely, in steps that are cut until nodes stick: then it turns by the way
+# over its radius, but for the strain of the slab, and the friction has no moment about its axis.
+rolled = run("rolled", checks / "roller_on_table.prm")
+check(rolled.cuts() > 0, f"{rolled}: no step was cut")
+below("rotation of the roller", relative(math.radians(rolled.column("obstacle roller: rotation y")[-1]),
+                                         -0.02 / 3), 0.03)
+below("friction on the roller", abs(rolled.force("contact")[0]), 1e-2)
+
 
 def resumes(name, scene, settings, steps):
     """The same statistics after a checkpoint."""

@@ -82,6 +82,29 @@ namespace Touchstone
     }
   };
 
+  /** @brief An obstacle that forces move slides on its whole contact, although friction could hold
+   * it: the bodies move it too far in one step. */
+  class ToolSlides : public NonConvergence
+  {
+  public:
+    /** @param step Length of the step in time. Slip is saturated in each attempt, so that nothing
+     * else tells them apart. */
+    ToolSlides(const std::string &what, const double step)
+      : NonConvergence(what)
+      , step(step)
+    {
+    }
+
+    double
+    measure() const override
+    {
+      return step;
+    }
+
+  private:
+    double step;
+  };
+
   /** @brief A Newton increment is far larger than all bodies together. */
   class ExcessiveIncrement : public NonConvergence
   {

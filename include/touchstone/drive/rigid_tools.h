@@ -47,7 +47,7 @@ namespace Touchstone
      * @brief Move the obstacles if they are not in balance in the state that has been found, of the
      * displacement @p u with ghosts. Collective.
      * @return whether they were moved, so that the state has to be found anew.
-     * @throws NewtonFailure after too many changes. @throws NothingResists
+     * @throws NewtonFailure after too many changes. @throws NothingResists @throws ToolSlides
      */
     bool
     correct(const Vector &u);
@@ -143,8 +143,13 @@ namespace Touchstone
     approach(const Numbers &residual, double scale, const std::vector<PairResult> &results);
     double
     way_to_touch(const RigidTool &tool, const Components &direction) const;
+    /** End the attempt: the balance does not change along @p direction.
+     * @throws ToolSlides @throws NothingResists */
+    [[noreturn]] void
+    give_up(const Numbers &direction, const std::vector<PairResult> &results) const;
+    /** The obstacle and component that @p direction is mostly of, for messages. */
     std::string
-    describe(const Numbers &direction) const;
+    name(const Numbers &direction) const;
     /** Which rows resist which unknowns, at time 0. */
     void
     check_resistance() const;
