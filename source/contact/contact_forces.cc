@@ -87,13 +87,10 @@ namespace Touchstone
     double work = 0.;
     for (const ContactRow &row : all_rows)
       {
-        const ObstacleParameters *const obstacle = pair(row).obstacle();
-        const Tensor<1, dim>            force =
-          over_step(row,
-                    obstacle != nullptr && obstacle->free.any() ? weight : 1.,
-                    [part](const ContactRow &at, const RowState &of) {
-                      return part_of_force(at, of, part);
-                    });
+        const Tensor<1, dim> force =
+          over_step(row, weight, [part](const ContactRow &at, const RowState &of) {
+            return part_of_force(at, of, part);
+          });
         if (force.norm_square() > 0.)
           work += row.share * force * row.motion.since(committed(row).motion, contact_point(row));
       }

@@ -3,6 +3,7 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/impact.h>
 
+#include <deal.II/base/patterns.h>
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_cg.h>
@@ -59,9 +60,12 @@ namespace Touchstone
         }
       catch (const SolverControl::NoConvergence &failure)
         {
-          throw LinearSolverFailure("the velocities after an impact were not found: residual " +
-                                    std::to_string(failure.last_residual / rhs.l2_norm()) +
-                                    " of the first one");
+          // In digits that show it: the residual is small even where it is too large.
+          throw LinearSolverFailure(
+            "the velocities after an impact were not found: residual " +
+            Patterns::Tools::to_string(failure.last_residual / rhs.l2_norm()) +
+            " of the first one after " + std::to_string(failure.last_step) + " iterations, where " +
+            Patterns::Tools::to_string(reduction) + " is asked for");
         }
     }
 

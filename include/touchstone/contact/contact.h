@@ -191,7 +191,7 @@ namespace Touchstone
      * since the committed state, force times length: the bodies get it from outside.
      * Collective.
      * @param weight Of the forces at the end of the step, those at its beginning having the rest,
-     * on obstacles that forces move: as on nodes. Driven ones work with the forces of the end. */
+     * as in the work on nodes: else nodes that an obstacle carries along would do work on it. */
     double
     work_of_obstacles(ForcePart part, double weight) const;
 
