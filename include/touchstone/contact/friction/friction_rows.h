@@ -100,8 +100,8 @@ namespace Touchstone
     std::vector<FrictionRow> present, committed;
     /** Those of the last update() that have friction. */
     ContactRows rows;
-    /** Positions of owned nodes: in the reference state, now, and when the step began; and those
-     * of all nodes that rows refer to. */
+    /** Of owned nodes: positions in the reference state, displacements now and when the step began;
+     * and those of all nodes that rows refer to. */
     Vector           reference_positions, owned_displacement, owned_start_displacement;
     NodePositions    positions;
     dealii::IndexSet positions_known;
