@@ -156,13 +156,22 @@ LATE_MATCHING = star("late_matching.prm", (100, 130, 130), ("3, 3, 1",) * 3, CYC
 for name, path, of_pairs, n_ranks, steps in (
         ("late_smooth", LATE, LAGRANGE, 1, 8), ("late_rough", LATE, rough(3), 2, 8),
         ("late_tied", LATE_TIED, settings(rough(3), OUTER, {"Contact pair a/Behaviour": "tied"}), 1, 4),
-        ("late_pointwise", LATE_MATCHING, settings(POINTWISE, rough(3)), 1, 4)):
+        ("late_pointwise", LATE_MATCHING, settings(POINTWISE, rough(3)), 1, 4),
+        # Arrived and strained in one step.
+        ("late_one_step", LATE_TIED, {}, 1, 1)):
     values = settings(of_pairs, {GAP: 1e-10, STEPS: steps})
     # Stopped while the body is where it has no joints, or has them.
     result = run(name, path, values) if n_ranks == 1 else stopped_and_resumed(name, path, values, 3, n_ranks)
     below(f"{result}, displacement", result.error("displacement_l2"), 1e-7)
     for pair in "abc":
         below(f"{result}, force of {pair}", relative(math.hypot(*result.force(pair)), 10), 1e-7)
+
+# It leaves before the others are strained: they are as if it had never been there.
+LEFT = {name: star(f"{name}.prm", (100, 130, 130), ("3, 3, 2", "4, 4, 2", "5, 7, 3"), CYCLE, (HELD, HELD, 0), away=way)
+        for name, way in (("left", "8 * abs(0.25 - t) * (t < 0.5) + 2 * (t >= 0.5)"), ("never", "2 + 0 * t"))}
+left, never = (math.hypot(*run(name, path, settings(rough(3), {STEPS: 4, "Contact pair a/Behaviour": "tied"})).force("a"))
+               for name, path in LEFT.items())
+below("force between the bodies that are left", relative(left, never), 1e-7)
 
 # Pointwise rows on meshes that match: nodes of the edge leave their parts to their neighbours, or forces that go
 # around the edge from body to body would decide who slips.

@@ -56,7 +56,8 @@ namespace Touchstone
         if (!row.has_partner)
           status = ContactStatus::no_partner;
         else if (status == ContactStatus::no_partner)
-          status = ContactStatus::open;
+          // A tied node gets its row back where a joint with others has opened.
+          status = row.tied ? ContactStatus::tied : ContactStatus::open;
         if (!first || status != ContactStatus::open)
           continue;
         if (row.tied)
