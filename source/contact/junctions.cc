@@ -3,6 +3,7 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/base/orthogonal.h>
 #include <touchstone/contact/junctions.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,6 +40,16 @@ namespace Touchstone
      * RefusedConditions. */
     constexpr double least_free = 0.5;
 
+    /** Relative difference of areas that are the same up to round-off. */
+    constexpr double same_area = 1e-6;
+
+    /** Whether a row is closed, or open by less than the size of a face. */
+    bool
+    may_act(const ContactRow &row)
+    {
+      return row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size);
+    }
+
     /** The links between these nodes, of all ranks. Collective. */
     std::vector<Link>
     links(const RowsByPair &rows, const std::set<Index> &nodes, const MPI_Comm communicator)
@@ -46,8 +57,7 @@ namespace Touchstone
       std::vector<Link> mine;
       for (unsigned int p = 0; p < rows.size(); ++p)
         for (const ContactRow &row : rows[p])
-          if (row.has_partner && !row.between_nodes && nodes.count(row.slave) > 0 &&
-              (row.tied || row.gap < row.size))
+          if (may_act(row) && nodes.count(row.slave) > 0)
             for (const StencilEntry &entry : row.stencil)
               if (entry.weight > least_weight && nodes.count(entry.node) > 0)
                 mine.push_back({p, row.slave, entry.node, entry.weight});
@@ -136,6 +146,42 @@ namespace Touchstone
 
 
 
+  std::vector<std::set<Index>>
+  nodes_over_joints(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                    const RowsByPair                                &rows,
+                    const Solid                                     &solid)
+  {
+    // All rows of a slave node are on the rank that owns it.
+    std::map<Index, std::vector<const ContactRow *>> of_node;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      // Areas of pointwise rows are those of whole nodes, whatever is covered.
+      if (can_stick(*pairs[p]) && pairs[p]->pairing().cover())
+        for (const ContactRow &row : rows[p])
+          // Beside a body that stands lower there is an edge of the contact, and no joint.
+          if (may_act(row) && (row.tied || row.gap < Tolerances::well_open * row.size))
+            of_node[row.slave].push_back(&row);
+    /** A row that is left to others. */
+    struct Left
+    {
+      unsigned int pair;
+      Index        slave;
+    };
+    std::vector<Left> mine;
+    for (const auto &[node, list] : of_node)
+      for (const ContactRow *const row : list)
+        if (std::any_of(list.begin(), list.end(), [row](const ContactRow *const other) {
+              return other != row && other->normal * row->normal > Tolerances::sharp_edge_cosine &&
+                     other->area > (1. - same_area) * row->area;
+            }))
+          mine.push_back({row->pair, node});
+    std::vector<std::set<Index>> result(pairs.size());
+    for (const Left &left : gather_all(mine, solid.communicator))
+      result[left.pair].insert(left.slave);
+    return result;
+  }
+
+
+
   namespace
   {
     /** What a row with a held slave node has of one node of its stencil. */
@@ -177,8 +223,7 @@ namespace Touchstone
     std::vector<Facing>          mine;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (const ContactRow &row : rows[p])
-        if (row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size) &&
-            free_part(row.normal, row.slave, supports) < no_part &&
+        if (may_act(row) && free_part(row.normal, row.slave, supports) < no_part &&
             free_part(row.normal, row.slave, pairs[p]->planes_of_symmetry()) > no_part)
           for (const StencilEntry &entry : row.stencil)
             mine.push_back({p, row.slave, entry.node, std::abs(entry.weight), row.normal});

@@ -69,6 +69,12 @@ namespace Touchstone
     NodesWithoutRows result;
     result.junctions = junction_nodes(pairs, rows, shared, solid);
     result.held      = held_nodes(pairs, rows, supports, solid);
+    if (pairs_meet())
+      {
+        const std::vector<std::set<Index>> over = nodes_over_joints(pairs, rows, solid);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+          result.junctions[p].insert(over[p].begin(), over[p].end());
+      }
     return result;
   }
 

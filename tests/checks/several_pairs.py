@@ -377,6 +377,31 @@ for enforcement, n_ranks in (LAGRANGE, 1), (ELIMINATION, 2):
         below(f"{brick}, force {d}", relative(sum(brick.force(side)[d] for side in ("bed left", "bed right")), expected),
               1e-7)
 
+# A block tied to, or pressed on, three bases whose joints lie inside its faces, or on its nodes: one row for
+# each of its nodes, and so one answer, which all find quickly.
+def on_bases(name, cells):
+    bodies = {f"base{k}": ["set Fixed = bottom",
+                           *box(f"{2 * k}, 0, -1", f"{2 * k + 2}, 2, 0", f"{3 + k}, 3, 2"), *material()] for k in range(3)}
+    bodies["block"] = ["set Boundary conditions = top", "subsection Boundary top", "set Displacement x = 0",
+                       "set Displacement y = 0", "set Displacement z = -0.02 * t", "end",
+                       *box("1, 0.3, 0", "5, 1.7, 1", cells), *material()]
+    return scene(name, "block on joints", bodies, [("block", "bottom", f"base{k}", "top") for k in range(3)],
+                 ["set Type = none"])
+
+
+for joints, cells in ("inside", "9, 4, 2"), ("nodes", "8, 4, 2"):
+    path = on_bases(f"joints_{joints}.prm", cells)
+    for law, ways in (("tied", ((ELIMINATION, {}, 1),)),
+                      ("rough", ((ELIMINATION, {}, 1), (OUTER, {}, 1), (ELIMINATION, CG, 2)))):
+        first = None
+        for k, (enforcement, solver, n_ranks) in enumerate(ways):
+            result = run(f"joints_{joints}_{law}_{k}", path, settings(
+                {STEPS: 1, GAP: 1e-10}, tied(3) if law == "tied" else rough(3, 0.4), enforcement, solver), n_ranks)
+            forces = [result.force(pair)[d] for pair in NAMES[:3] for d in (0, 2)]
+            first = first or forces
+            below(f"{result}, forces", max(abs(f - g) for f, g in zip(forces, first)) / first[1], 1e-6)
+            check(result.iterations() <= 15, f"{result}: {result.iterations()} iterations")
+
 # Pointwise rows tie meshes 6 : 4, with the coarse side as slave 4 : 8; ties that are exact.
 LOWER, UPPER = "Body lower/Geometry/Cells", "Body upper/Geometry/Cells"
 for k, (change, uneven) in enumerate((({}, True), ({LOWER: "4, 4, 2", UPPER: "8, 8, 2"}, True),
