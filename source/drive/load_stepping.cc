@@ -66,8 +66,8 @@ namespace Touchstone
             const std::string earlier = earlier_checkpoint(at);
             stop(signal.what() + (" in step " + std::to_string(at.step)) + " to time " +
                    std::to_string(next) +
-                   (earlier.empty() ? "; with --resume the run begins with this step again" :
-                                      "; start it again: --resume would go on from " + earlier +
+                   (earlier.empty() ? "; with --resume the run begins with this step again"
+                                    : "; start it again: --resume would go on from " + earlier +
                                         ", which an earlier run has left in the folder"),
                  at);
             return;

@@ -62,6 +62,14 @@ goes_on("implicit-int-2", scene, settings, signal.SIGINT, whole, ranks=2, one_ra
 goes_on("implicit-usr1-2", scene, settings, signal.SIGUSR1, whole, ranks=2)
 goes_on("implicit-first", scene, settings, signal.SIGTERM, whole, step=1)
 
+# A first step that does not converge goes on with other settings, too.
+few = {**settings, "Checkpoints/Steps between": 5, "Newton/Maximum iterations": 1, "Load stepping/Maximum cuts": 0}
+failed = launch("--output", "failed-first", *settings_options(few), scene)
+check(failed.returncode == 2, f"failed-first: exit code {failed.returncode}")
+done = launch("--resume", "--output", "failed-first", *settings_options(settings), scene)
+check(done.returncode == 0 and "step 0 at time 0" in done.stdout, f"failed-first: {done.stdout}")
+same(whole, Run("failed-first", folder / "failed-first", done.stdout), 1e-10)
+
 scene, settings = EXPLICIT
 whole = run("explicit-whole", scene, settings)
 goes_on("explicit-term", scene, settings, signal.SIGTERM, whole)
