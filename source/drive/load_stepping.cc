@@ -62,11 +62,13 @@ namespace Touchstone
         catch (const Interruption &signal)
           {
             problem->rollback();
-            summary.interrupted = true;
+            summary.interrupted       = true;
+            const std::string earlier = earlier_checkpoint(at);
             stop(signal.what() + (" in step " + std::to_string(at.step)) + " to time " +
                    std::to_string(next) +
-                   (at.step > 1 ? "; with --resume the run begins with this step again"
-                                : ", before which there is nothing to resume"),
+                   (earlier.empty() ? "; with --resume the run begins with this step again"
+                                    : "; start it again: --resume would go on from " + earlier +
+                                        ", which an earlier run has left in the folder"),
                  at);
             return;
           }

@@ -119,12 +119,25 @@ namespace Touchstone
 
 
 
+  std::string
+  Simulation::earlier_checkpoint(const Position &position) const
+  {
+    if (position.step > 1 || last_checkpoint == position.step)
+      return "";
+    const auto earlier = find_checkpoint(folder.path(""), communicator).checkpoint;
+    return earlier && earlier->step > 0 ? earlier->name : "";
+  }
+
+
+
   void
   Simulation::write_last_checkpoint(const Position &position)
   {
-    // A run that a signal ends is to go on later, whether or not the user has thought of it.
+    // A run that a signal ends is to go on later, whether or not the user has thought of it. The
+    // initial state takes the place of nothing: a run started by mistake where an earlier one has
+    // left a checkpoint, and ended at once, must not cost it.
     if ((scene.checkpoints.active() || summary.interrupted) && last_checkpoint != position.step &&
-        position.step > 1)
+        earlier_checkpoint(position).empty())
       write_checkpoint(position);
   }
 

@@ -96,11 +96,14 @@ namespace Touchstone
     std::string available;
     for (const auto &[other, id] : names[body])
       available += (available.empty() ? "'" : ", '") + other + "'";
+    std::string sets;
+    for (const auto &[other, members] : node_sets[body])
+      sets += (sets.empty() ? ", and the sets of nodes '" : ", '") + other + "'";
     throw InputError(section,
                      key,
                      name,
                      "the body has no boundary of this name or number",
-                     "it has " + available + ".");
+                     "it has " + available + sets + ".");
   }
 
 

@@ -3,6 +3,7 @@
 #include <touchstone/mesh/gmsh_groups.h>
 
 #include <cstdlib>
+#include <set>
 
 namespace Touchstone
 {
@@ -32,6 +33,23 @@ namespace Touchstone
 
 
 
+  std::vector<unsigned int>
+  GmshGroups::read_groups(const char *section, const unsigned int d, GmshNumbers &numbers)
+  {
+    const unsigned int n_bounds = d == 0 ? 3 : 6; // a point, or a box
+    for (unsigned int b = 0; b < n_bounds; ++b)
+      numbers.real(section);
+    std::vector<unsigned int> groups;
+    for (auto left = numbers.size(section); left > 0; --left)
+      groups.push_back(std::abs(numbers.integer(section)));
+    if (d > 0) // the entities of its boundary
+      for (auto left = numbers.size(section); left > 0; --left)
+        numbers.integer(section);
+    return groups;
+  }
+
+
+
   void
   GmshGroups::read_entities(MeshText &text, GmshNumbers &numbers)
   {
@@ -43,21 +61,51 @@ namespace Touchstone
     for (unsigned int d = 0; d < 4; ++d)
       for (unsigned long i = 0; i < n[d]; ++i)
         {
-          const auto         entity   = numbers.tag(section);
-          const unsigned int n_bounds = d == 0 ? 3 : 6; // a point, or a box
-          for (unsigned int b = 0; b < n_bounds; ++b)
-            numbers.real(section);
-          std::vector<unsigned int> groups;
-          for (auto left = numbers.size(section); left > 0; --left)
-            groups.push_back(std::abs(numbers.integer(section)));
-          if (!physical[d].insert({entity, groups}).second)
+          const auto entity = numbers.tag(section);
+          if (!physical[d].insert({entity, read_groups(section, d, numbers)}).second)
             text.fail("Entity " + std::to_string(entity) + " of dimension " + std::to_string(d) +
                         " appears twice.",
                       "remove one of the two from the file");
-          if (d > 0) // the entities of its boundary
-            for (auto left = numbers.size(section); left > 0; --left)
-              numbers.integer(section);
         }
+  }
+
+
+
+  void
+  GmshGroups::read_partitioned_entities(MeshText &text, GmshNumbers &numbers)
+  {
+    has_entities             = true;
+    const char *section      = "$PartitionedEntities";
+    const auto  n_partitions = numbers.size(section);
+    for (auto left = numbers.size(section); left > 0; --left)
+      {
+        numbers.integer(section); // of ghost cells, and their partition
+        numbers.integer(section);
+      }
+    unsigned long n[4];
+    for (unsigned long &count : n)
+      count = numbers.size(section);
+    std::set<long> with_cells;
+    for (unsigned int d = 0; d < 4; ++d)
+      for (unsigned long i = 0; i < n[d]; ++i)
+        {
+          const auto entity     = numbers.tag(section);
+          const auto parent_dim = numbers.integer(section);
+          const auto parent     = numbers.integer(section);
+          for (auto left = numbers.size(section); left > 0; --left)
+            if (const long partition = numbers.integer(section); d == 3)
+              with_cells.insert(partition);
+          std::vector<unsigned int> groups = read_groups(section, d, numbers);
+          // Groups are those of the entity that was divided, also where its parts do not say so.
+          if (const auto whole = physical[d].find(parent);
+              groups.empty() && parent_dim == static_cast<long>(d) && whole != physical[d].end())
+            groups = whole->second;
+          physical[d][entity] = groups;
+        }
+    if (with_cells.size() < n_partitions)
+      text.fail("The mesh is divided into " + std::to_string(n_partitions) +
+                  " partitions, of which the file has " + std::to_string(with_cells.size()) + ".",
+                "save the mesh in one file and without partitions: the program divides it itself");
   }
 
 

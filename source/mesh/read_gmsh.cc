@@ -154,6 +154,8 @@ namespace Touchstone
         groups.read_names(text);
       else if (section == "$Entities")
         groups.read_entities(text, numbers);
+      else if (section == "$PartitionedEntities")
+        groups.read_partitioned_entities(text, numbers);
       else if (section == "$Nodes")
         numbers.version() < 3. ? read_nodes() : read_blocks_of_nodes();
       else if (section == "$Elements")

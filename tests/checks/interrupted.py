@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that a signal ends says so, has its own exit code and a checkpoint without being asked for
 one, and goes on with --resume to the result of a run that was not interrupted: SIGTERM, SIGINT to
-one of two ranks, SIGUSR1 by way of mpirun; implicit and explicit."""
+one of two ranks, SIGUSR1 by way of mpirun; implicit and explicit; in a later step and in the
+first, after which only the initial state is there to go on from."""
 
 import os
 import shutil
@@ -17,9 +18,10 @@ EXPLICIT = checks / "explicit_bars.prm", {STEPS: 60}
 INTERRUPTED = 5
 
 
-def interrupt(name, scene, settings, number, ranks=1, one_rank=False, step=4):
+def interrupt(name, scene, settings, number, ranks=1, one_rank=False, step=4, afresh=True):
     """Send the signal NUMBER when STEP begins. @return what the run has said, and its exit code."""
-    shutil.rmtree(folder / name, ignore_errors=True)
+    if afresh:
+        shutil.rmtree(folder / name, ignore_errors=True)
     command = [*(["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []), program,
                "--output", name, *settings_options(settings), scene]
     text = ""
@@ -58,12 +60,26 @@ whole = run("implicit-whole", scene, settings)
 goes_on("implicit-term", scene, settings, signal.SIGTERM, whole)
 goes_on("implicit-int-2", scene, settings, signal.SIGINT, whole, ranks=2, one_rank=True)
 goes_on("implicit-usr1-2", scene, settings, signal.SIGUSR1, whole, ranks=2)
+goes_on("implicit-first", scene, settings, signal.SIGTERM, whole, step=1)
+
+# A first step that does not converge goes on with other settings, too.
+few = {**settings, "Checkpoints/Steps between": 5, "Newton/Maximum iterations": 1, "Load stepping/Maximum cuts": 0}
+failed = launch("--output", "failed-first", *settings_options(few), scene)
+check(failed.returncode == 2, f"failed-first: exit code {failed.returncode}")
+done = launch("--resume", "--output", "failed-first", *settings_options(settings), scene)
+check(done.returncode == 0 and "step 0 at time 0" in done.stdout, f"failed-first: {done.stdout}")
+same(whole, Run("failed-first", folder / "failed-first", done.stdout), 1e-10)
 
 scene, settings = EXPLICIT
 whole = run("explicit-whole", scene, settings)
 goes_on("explicit-term", scene, settings, signal.SIGTERM, whole)
+goes_on("explicit-first", scene, settings, signal.SIGTERM, whole, step=1)
 
-# Nothing to go on from, and nothing that says so.
-text, code = interrupt("first_step", *IMPLICIT, signal.SIGTERM, step=1)
-check(code == INTERRUPTED and "nothing to resume" in text, f"first step: {code}, {text[-500:]}")
+# The initial state takes the place of no checkpoint that an earlier run has left.
+before = sorted((folder / "implicit-term").glob("checkpoint_*"))
+text, code = interrupt("implicit-term", *IMPLICIT, signal.SIGTERM, step=1, afresh=False)
+check(code == INTERRUPTED and f"would go on from {before[-1].name}, which an earlier run" in text,
+      f"earlier run: {code}, {text[-500:]}")
+check(sorted((folder / "implicit-term").glob("checkpoint_*")) == before,
+      "a run that was ended in its first step has taken checkpoints of an earlier one away")
 finish()

@@ -7,6 +7,7 @@ momentum in explicit dynamics; what needs faces is refused."""
 
 import itertools
 import pathlib
+import struct
 
 from touchstone_test import CG, DEGREE, FACTOR, below, check, finish, folder, relative, run
 
@@ -55,6 +56,45 @@ def gmsh():
                       "$EndElements"]) + "\n"
 
 
+def gmsh_partitioned(partitions=2):
+    """The same in binary of version 4.1 and divided in two: elements belong to parts of entities that the
+    section of partitioned entities has, those of the cells without groups of their own."""
+    def i(*values):
+        return struct.pack(f"<{len(values)}i", *values)
+
+    def n(*values):
+        return struct.pack(f"<{len(values)}Q", *values)
+
+    def x(*values):
+        return struct.pack(f"<{len(values)}d", *values)
+
+    def section(name, *parts):
+        return f"${name}\n".encode() + b"".join(parts) + f"\n$End{name}\n".encode()
+
+    half = len(CELLS) // 2
+    # By dimension: number and group of an entity, its elements, and the entity that it is a part of.
+    blocks = [(0, number, number, [[NODES[m]] for m in POINTS[name]], number) for number, name in enumerate(POINTS, 1)]
+    blocks += [(1, number, number, [[NODES[a], NODES[b]] for a, b in zip(EDGES[name], EDGES[name][1:])], number)
+               for number, name in enumerate(EDGES, 1)]
+    blocks += [(3, 11, None, CELLS[:half], 1), (3, 12, None, CELLS[half:], 1)]
+    counts = [sum(block[0] == d for block in blocks) for d in range(4)]
+    parts = [i(number, d, whole) + n(1) + i(number % 2 + 1) + x(*[0] * (6 if d else 3))
+             + (n(1) + i(group) if group else n(0)) + (n(0) if d else b"")
+             for d, number, group, _, whole in blocks]
+    numbers = itertools.count(1)
+    elements = [i(d, number, (15, 1, None, 5)[d]) + n(len(members))
+                + b"".join(n(next(numbers), *member) for member in members) for d, number, _, members, _ in blocks]
+    names = [f'1 {k} "{name}"' for k, name in enumerate(EDGES, 1)] + [f'0 {k} "{name}"' for k, name in enumerate(POINTS, 1)]
+    return b"".join([
+        b"$MeshFormat\n4.1 1 8\n", i(1), b"\n$EndMeshFormat\n",
+        "\n".join(["$PhysicalNames", str(len(names) + 1), *names, '3 1 "beam"', "$EndPhysicalNames", ""]).encode(),
+        section("Entities", n(0, 0, 0, 1), i(1), x(*[0] * 6), n(1), i(1), n(0)),
+        section("PartitionedEntities", n(partitions, 0, *counts), *parts),
+        section("Nodes", n(1, len(NODES), 1, len(NODES)), i(3, 11, 0), n(len(NODES), *NODES.values()),
+                *(x(X[a], Y[b], Z[c]) for a, b, c in NODES)),
+        section("Elements", n(len(blocks), sum(len(b[3]) for b in blocks), 1, len(NODES)), *elements)])
+
+
 def vtu():
     """The same with an array of the points for each set."""
     def array(kind, name, values, components=1):
@@ -96,6 +136,8 @@ pathlib.Path(folder / "beam.inp").write_text(abaqus(), encoding="utf-8")
 pathlib.Path(folder / "beam.msh").write_text(gmsh(), encoding="utf-8")
 pathlib.Path(folder / "beam.vtu").write_text(vtu(), encoding="utf-8")
 pathlib.Path(folder / "beam.vtk").write_text(vtk(), encoding="utf-8")
+(folder / "parts.msh").write_bytes(gmsh_partitioned())
+(folder / "part.msh").write_bytes(gmsh_partitioned(partitions=3))
 ARRAYS = f"\n    set Boundary arrays = {', '.join([*EDGES, *POINTS])}"
 HEAD = """set Title  = Sets of nodes
 set Bodies = beam
@@ -137,7 +179,8 @@ BEAM = ["  set Boundary conditions = left, right, top, one",
         *boundary("left", "Displacement z = 0", "Displacement x = 0"), *boundary("right", "Displacement z = 0"),
         *boundary("one", "Displacement y = 0"), *boundary("top", "Force z = -2*t")]
 bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh", "vtu", "vtk")}
-for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("vtu", "vtu", {}, 1), ("vtk", "vtk", {}, 1), ("ranks", "inp", {}, 2),
+bent["parts"] = scene("beam_parts", "parts.msh\n    set Volume = beam", *BEAM)
+for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("vtu", "vtu", {}, 1), ("vtk", "vtk", {}, 1), ("parts", "parts", {}, 1), ("ranks", "inp", {}, 2),
                                     ("fine", "inp", {FACTOR: 2}, 2), ("degree", "msh", {DEGREE: 2}, 1),
                                     ("both", "msh", {DEGREE: 2, FACTOR: 2}, 2), ("cg", "inp", CG, 1),
                                     ("adaptive", "inp", {"Refinement/Estimator": "recovered stress",
@@ -190,6 +233,10 @@ for name, old, new, text in (("number", "POINT_DATA 45", "POINT_DATA 44", "POINT
     (folder / f"bad_{name}.vtk").write_text(whole.replace(old, new), encoding="utf-8")
     refused = run(f"bad_{name}", scene(f"bad_vtk_{name}", f"bad_{name}.vtk", "  set Fixed = left"), fails=True)
     check(text in refused.text, f"{name}: {refused.text[-500:]}")
+partial = run("bad_part", scene("bad_part", "part.msh", "  set Fixed = left"), fails=True)
+check("divided into 3 partitions, of which the file has 2" in partial.text, partial.text[-500:])
+misspelt = run("bad_set", scene("bad_set", "beam.msh", "  set Fixed = lfet"), fails=True)
+check("and the sets of nodes 'left', 'one'" in misspelt.text, misspelt.text[-500:])
 symmetric = run("bad_symmetry", scene("bad_symmetry", "beam.inp", "  set Symmetry = left"), fails=True)
 check("is a set of nodes, but faces are needed here" in symmetric.text, symmetric.text[-500:])
 finish()

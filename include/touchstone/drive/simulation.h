@@ -128,7 +128,12 @@ namespace Touchstone
     checkpoint_due(const Position &position) const;
     void
     write_checkpoint(const Position &position);
-    /** Write a checkpoint after the last step, unless there is one. */
+    /** The checkpoint of an earlier run that is in the folder while the first step is made, "" if
+     * there is none or the run has one of its own. Collective. */
+    std::string
+    earlier_checkpoint(const Position &position) const;
+    /** Write a checkpoint after the last step, or of the initial state if there has been none,
+     * unless there is one. */
     void
     write_last_checkpoint(const Position &position);
     /** @throws InputError if they have changed since the checkpoint was written. */

@@ -32,6 +32,11 @@ namespace Touchstone
     void
     read_entities(MeshText &text, GmshNumbers &numbers);
 
+    /** @brief Read $PartitionedEntities, the parts of entities that a partitioned mesh has in place
+     * of them, of which the physical groups are kept. A file with a part of the mesh is refused. */
+    void
+    read_partitioned_entities(MeshText &text, GmshNumbers &numbers);
+
     /** @brief The physical groups of an entity of dimension @p d; none in a file without
      * $Entities. */
     const std::vector<unsigned int> &
@@ -49,6 +54,10 @@ namespace Touchstone
     name_groups(MeshFile &mesh) const;
 
   private:
+    /** The physical groups at the present place of the file. */
+    static std::vector<unsigned int>
+    read_groups(const char *section, unsigned int d, GmshNumbers &numbers);
+
     bool has_entities = false;
     /** Physical groups of each entity, by dimension. */
     std::map<unsigned long, std::vector<unsigned int>> physical[4];
