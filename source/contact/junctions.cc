@@ -43,11 +43,11 @@ namespace Touchstone
     /** Relative difference of areas that are the same up to round-off. */
     constexpr double same_area = 1e-6;
 
-    /** Whether a row is closed, or open by less than the size of a face. */
+    /** Whether a row is closed, or open by less than this part of the size of a face. */
     bool
-    may_act(const ContactRow &row)
+    may_act(const ContactRow &row, const double part = 1.)
     {
-      return row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size);
+      return row.has_partner && !row.between_nodes && (row.tied || row.gap < part * row.size);
     }
 
     /** The links between these nodes, of all ranks. Collective. */
@@ -158,7 +158,7 @@ namespace Touchstone
       if (can_stick(*pairs[p]) && pairs[p]->pairing().cover())
         for (const ContactRow &row : rows[p])
           // Beside a body that stands lower there is an edge of the contact, and no joint.
-          if (may_act(row) && (row.tied || row.gap < Tolerances::well_open * row.size))
+          if (may_act(row, Tolerances::well_open))
             of_node[row.slave].push_back(&row);
     /** A row that is left to others. */
     struct Left

@@ -71,9 +71,9 @@ namespace Touchstone
     result.held      = held_nodes(pairs, rows, supports, solid);
     if (pairs_meet())
       {
-        const std::vector<std::set<Index>> over = nodes_over_joints(pairs, rows, solid);
-        for (std::size_t p = 0; p < pairs.size(); ++p)
-          result.junctions[p].insert(over[p].begin(), over[p].end());
+        NodesWithoutRows over(pairs.size());
+        over.junctions = nodes_over_joints(pairs, rows, solid);
+        result.add(over);
       }
     return result;
   }

@@ -13,14 +13,14 @@ namespace Touchstone
 {
   /**
    * @brief Slave nodes that leave their rows to the other nodes of their faces, by pair: at edges
-   * where pairs meet, and between supports (doc/theory.md 3.1).
+   * where pairs meet, over joints of masters, and between supports (doc/theory.md 3.1).
    *
    * They follow from the configuration in which a step begins, and those that a step brings
    * together are added once it has been solved. The same on all ranks.
    */
   struct NodesWithoutRows
   {
-    /** See junction_nodes() and held_nodes(). */
+    /** See junction_nodes() and nodes_over_joints(), and held_nodes(). */
     std::vector<std::set<Index>> junctions, held;
 
     explicit NodesWithoutRows(const std::size_t n_pairs = 0)
