@@ -40,8 +40,9 @@ namespace Touchstone
      * RefusedConditions. */
     constexpr double least_free = 0.5;
 
-    /** Relative difference of areas that are the same up to round-off. */
-    constexpr double same_area = 1e-6;
+    /** Relative difference of areas that count as the same: bodies that are strained beside each
+     * other must not decide by who bulges more. */
+    constexpr double same_area = 0.1;
 
     /** Whether a row is closed, or open by less than this part of the size of a face. */
     bool

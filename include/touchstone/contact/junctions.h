@@ -66,9 +66,9 @@ namespace Touchstone
   /**
    * @brief Slave nodes with rows of several pairs on the same side that are tied or have friction,
    * by the pairs whose rows they leave to others: all but the one that covers most of the node, all
-   * if two cover the same (doc/theory.md 3.1, "Slave nodes over joints"). At a slave face over the
-   * joint of two masters both rows would determine all displacements of the node, and one of them
-   * those of the masters, which may have too few nodes there.
+   * if two cover about the same (doc/theory.md 3.1, "Slave nodes over joints"). At a slave face
+   * over the joint of two masters both rows would determine all displacements of the node, and one
+   * of them those of the masters, which may have too few nodes there.
    *
    * @param rows Of all slave nodes, as if none left its row to others.
    * @return By pair; the same on all ranks. Collective.

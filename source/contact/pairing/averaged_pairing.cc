@@ -206,7 +206,7 @@ namespace Touchstone
       {
         covered_nodes.keep_rows.clear();
         for (const auto &[node, area] : left_alone)
-          if (area.norm() > Tolerances::least_cover * covered_nodes.whole.at(node).norm())
+          if (area.norm() > Tolerances::keeps_if_at_once * covered_nodes.own.at(node).norm())
             covered_nodes.keep_rows.insert(node);
       }
       bool others_changed = false;
