@@ -56,11 +56,9 @@ namespace Touchstone
     , surface(input, solid, nodes)
     , mirror_planes(input, solid, surface, nodes)
     , candidates(surface, nodes, solid.owned, parameters.search.name)
+    , moving(surface, nodes, candidates)
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)
-    , inset_now(nodes.n_local())
-    , inset_before(nodes.n_local())
-    , insets_of(nodes.n_local(), 0)
   {
     double size = std::numeric_limits<double>::max();
     for (const unsigned int node : surface.owned_nodes())
@@ -88,8 +86,8 @@ namespace Touchstone
     forget();
     std::fill(last_pressed.begin(), last_pressed.end(), 0);
     pressing.clear();
-    cycles   = 0;
-    begun    = false;
+    cycles = 0;
+    moving.insets.forget();
     energies = Energy();
   }
 
@@ -184,19 +182,12 @@ namespace Touchstone
   void
   GeneralContact::begin_candidates()
   {
-    motion.resize(candidates.at_slots.n());
-    last_pressed.assign(motion.size(), 0);
-    pressed_nodes.assign(motion.size(), 0);
+    moving.reinit();
+    last_pressed.assign(candidates.at_slots.n(), 0);
+    pressed_nodes.assign(candidates.at_slots.n(), 0);
     pressing.clear();
-    near_faces.clear();
-    near_nodes.clear();
-    face_is_near.assign(candidates.faces.size(), false);
-    node_is_near.assign(motion.size(), false);
     slave_of_pair.assign(candidates.node_faces.size(), 0);
     face_limits.assign(candidates.face_pairs.size());
-    local.resize(candidates.at_slots.n_owned());
-    for (unsigned int node = 0; node < local.size(); ++node)
-      local[node] = nodes.local(candidates.at_slots.dof(node));
     apart_faces.assign(candidates.face_pairs.size(), {});
     apart_nodes.assign(candidates.node_faces.size(), {});
     apart_edges.assign(candidates.edge_pairs.size(), {});
@@ -234,15 +225,15 @@ namespace Touchstone
     for (const std::size_t slot : pressing)
       if (presses_often(slot))
         {
-          const NodeMotion &of = at(slot);
+          const NodeMotion &of = moving.at(slot);
           PressingNode      node{candidates.key(slot),
                             last_pressed[candidates.at_slots.node(slot)],
                             {},
                             {}};
           for (unsigned int d = 0; d < dim; ++d)
             {
-              node.lower[d] = std::min(of.x[d], of.x[d] + cycle * of.v[d]);
-              node.upper[d] = std::max(of.x[d], of.x[d] + cycle * of.v[d]);
+              node.lower[d] = std::min(of.x[d], of.x[d] + moving.cycle * of.v[d]);
+              node.upper[d] = std::max(of.x[d], of.x[d] + moving.cycle * of.v[d]);
             }
           result.push_back(node);
         }
@@ -285,76 +276,6 @@ namespace Touchstone
 
 
 
-  // The surfaces of the check go on from where the cycle before has left them, with its normals, so
-  // that nothing passes through them as normals turn from one cycle to the next. An interval knows
-  // of the cycle before it what a checkpoint knows: where it began.
-  void
-  GeneralContact::import_node(const unsigned int node, const NodeField &u, const NodeField &v)
-  {
-    const unsigned int of = local[node];
-    if (insets_of[of] != insets_now)
-      {
-        inset_before[of] =
-          insets_of[of] + 1 == insets_now ? inset_now[of] : surface.inset(of, begun_before);
-        inset_now[of] = surface.inset(of, begun_at, face_areas, insets_now);
-        insets_of[of] = insets_now;
-      }
-    motion[node] = {surface.position(of, u),
-                    v[of],
-                    inset_now[of].normal,
-                    inset_before[of].normal,
-                    surface.size(of),
-                    inset_now[of].depth,
-                    inset_before[of].depth};
-  }
-
-
-
-  // Of other ranks it is not known what they need.
-  void
-  GeneralContact::import(const NodeField &u, const NodeField &v)
-  {
-    if (candidates.at_slots.alone())
-      for (const unsigned int node : near_nodes)
-        import_node(node, u, v);
-    else
-      {
-        for (unsigned int node = 0; node < local.size(); ++node)
-          import_node(node, u, v);
-        candidates.at_slots.forward(motion);
-      }
-  }
-
-
-
-  void
-  GeneralContact::follow_insets(const NodeField &u,
-                                const NodeField &v_before,
-                                const double     step_before)
-  {
-    bool same = begun;
-    for (const unsigned int node : surface.owned_nodes())
-      same = same && u[node] == begun_at[node];
-    // A cycle that is halved begins where it has begun.
-    if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
-      return;
-    // What belongs to an earlier interval is not that of the cycle before.
-    insets_now += begun ? 1 : 2;
-    if (begun)
-      begun_before.swap(begun_at);
-    else
-      {
-        begun_before = u;
-        if (step_before > 0.)
-          for (unsigned int node = 0; node < nodes.n_local(); ++node)
-            begun_before[node] -= step_before * v_before[node];
-      }
-    begun_at = u;
-    begun    = true;
-  }
-
-
-
   void
   GeneralContact::begin_cycle(const NodeField &u,
                               const NodeField &v_before,
@@ -369,23 +290,24 @@ namespace Touchstone
     const Range moves = range([&](const unsigned int n) { return step * v[n]; });
     if (!std::isfinite(moves.largest))
       return; // what is wrong with the velocities is told where the cycle is checked
-    const NodeField &before = begun ? begun_at : u;
-    const Range      moved  = range([&](const unsigned int n) { return u[n] - before[n]; });
+    const NodeField *const start  = moving.insets.start();
+    const NodeField       &before = start ? *start : u;
+    const Range            moved  = range([&](const unsigned int n) { return u[n] - before[n]; });
     travelled += moved.distance;
     travels = moves.distance;
     // What impulses may make of the motion: of the state alone, not of when candidates were made.
     most_in_cycle = std::max(reach * of_impulses * moves.largest, least_margin * smallest);
     if (renew || !candidates_hold(u, moved))
       renew_candidates(u, v, step, moves.largest);
-    cycle          = step;
+    moving.cycle   = step;
     checks_in_vain = 0;
     ++cycles;
-    follow_insets(u, v_before, step_before);
+    moving.insets.begin_cycle(u, v_before, step_before);
     if (!candidates.any())
       return;
     begin_near();
     find_near();
-    import(u, v);
+    moving.import(u, v);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
@@ -409,7 +331,7 @@ namespace Touchstone
       return Crossings::too_far;
     travels = moves.distance;
     find_near();
-    import(u, v);
+    moving.import(u, v);
     return check_motion(/*ahead=*/false, round <= rounds_in_order);
   }
 
@@ -424,7 +346,7 @@ namespace Touchstone
   GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
     looks_ahead = ahead;
-    set_inner_positions();
+    moving.set_inner_positions();
     find_open_faces();
     found.clear();
     std::size_t known   = 0;
@@ -484,7 +406,7 @@ namespace Touchstone
     if (there == nullptr)
       return 0.;
     return there->more +
-           opening * std::max(least_missing * inset * row.size, -inner_gap_at_end(row));
+           opening * std::max(least_missing * inset * row.size, -inner_gap_at_end(moving, row));
   }
 
 

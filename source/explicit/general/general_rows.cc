@@ -24,7 +24,7 @@ namespace Touchstone
         row.friction = friction ? &*friction : nullptr;
         // Once for the row, once for its lever.
         for (unsigned int k = 0; k < 2; ++k)
-          for (const Side &side : from.sides)
+          for (const SurfaceRow::Side &side : from.sides)
             for (unsigned int i = 0; i < side.n; ++i)
               slots.emplace_back(candidates.dof(side.slots[i]), row.key);
         to.push_back(row);
@@ -37,7 +37,7 @@ namespace Touchstone
   RowKey
   GeneralContact::slave_of(const RowKey &key)
   {
-    return key.pair == on_faces ? RowKey{key.pair, key.slave, {}} : key;
+    return key.pair == SurfaceRow::on_faces ? RowKey{key.pair, key.slave, {}} : key;
   }
 
 
@@ -93,7 +93,7 @@ namespace Touchstone
     pressed[what.key] = what;
     if (what.sliding)
       sliding.insert(slave_of(what.key));
-    if (what.key.pair == on_faces)
+    if (what.key.pair == SurfaceRow::on_faces)
       {
         if (const std::size_t pair = candidates.find_node(what.key.slave);
             pair < candidates.node_faces.size())
@@ -156,8 +156,8 @@ namespace Touchstone
           last_impulses[k] = {row.impulse, row.friction && row.sliding, epoch};
           if (last_impulses[k].sliding)
             sliding.insert(slave_of(row.key));
-          const Side &slave = rows[k].sides[0];
-          if (row.key.pair == on_faces && slave.n == 1)
+          const SurfaceRow::Side &slave = rows[k].sides[0];
+          if (row.key.pair == SurfaceRow::on_faces && slave.n == 1)
             {
               press(slave.slots[0], cycles);
               pressed_nodes[candidates.at_slots.node(slave.slots[0])] = epoch;
@@ -184,13 +184,14 @@ namespace Touchstone
           what.key     = row.key;
           what.impulse = last_impulses[k].impulse;
           what.sliding = last_impulses[k].sliding;
-          what.lower = what.upper = Point<dim>(at(row.sides[0].slots[0]).x);
+          what.lower = what.upper = Point<dim>(moving.at(row.sides[0].slots[0]).x);
           // Of inner edges the slave side alone does not say on which rank their candidates are.
-          for (unsigned int side = 0; side < (row.key.pair == on_edges ? 2U : 1U); ++side)
+          for (unsigned int side = 0; side < (row.key.pair == SurfaceRow::on_edges ? 2U : 1U);
+               ++side)
             for (unsigned int i = 0; i < row.sides[side].n; ++i)
               {
-                const NodeMotion &of = at(row.sides[side].slots[i]);
-                for (const Tensor<1, dim> &x : {of.x, of.x + cycle * of.v})
+                const NodeMotion &of = moving.at(row.sides[side].slots[i]);
+                for (const Tensor<1, dim> &x : {of.x, of.x + moving.cycle * of.v})
                   for (unsigned int d = 0; d < dim; ++d)
                     {
                       what.lower[d] = std::min(what.lower[d], x[d]);
@@ -212,7 +213,7 @@ namespace Touchstone
         {
           std::array<Index, 8> dofs{};
           unsigned int         n = 0;
-          for (const Side &side : rows[k].sides)
+          for (const SurfaceRow::Side &side : rows[k].sides)
             for (unsigned int i = 0; i < side.n; ++i)
               dofs[n++] = candidates.dof(side.slots[i]);
           outcome.add(dofs, n, totals[k]);
