@@ -26,11 +26,6 @@ namespace Touchstone
      * many rounds none waits for others. */
     constexpr unsigned int rounds_in_order = 2;
 
-    /** Nodes of the coarser side that pressed on a face in one of so many cycles are looked at with
-     * the free velocities: they are mostly over an edge of the face, where they do not count as
-     * touching, and would ask for a round of their own. */
-    constexpr std::uint64_t cycles_remembered = 16;
-
     /** A gap that was kept open in vain opens by so many times what is missing, or this part of
      * what surfaces are moved inwards by: faces and normals turn on as it opens, and each round
      * costs more than a gap that is wider. */
@@ -57,6 +52,7 @@ namespace Touchstone
     , mirror_planes(input, solid, surface, nodes)
     , candidates(surface, nodes, solid.owned, parameters.search.name)
     , moving(surface, nodes, candidates)
+    , impulses(candidates, moving, nodes.communicator())
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)
   {
@@ -79,14 +75,10 @@ namespace Touchstone
     renew = true;
     candidates.begin_interval();
     rows.clear();
-    last_impulses.clear();
     totals.clear();
     outcome.begin_interval();
     numbers.clear();
-    forget();
-    std::fill(last_pressed.begin(), last_pressed.end(), 0);
-    pressing.clear();
-    cycles = 0;
+    impulses.begin_interval();
     moving.insets.forget();
     energies = Energy();
   }
@@ -158,9 +150,8 @@ namespace Touchstone
                                    const double     in_cycle)
   {
     keep_totals();
-    const auto pressing = pressing_nodes();
-    const auto last     = pressed_rows();
-    made_at             = u;
+    const LastImpulses::Carried last = impulses.carried(rows);
+    made_at                          = u;
     since_made.fill(0.);
     const double wanted = parameters.margin_length();
     const double automatic =
@@ -169,12 +160,12 @@ namespace Touchstone
     candidates.find(u, v, step, margin);
     begin_candidates();
     rows.clear();
-    last_impulses.clear();
+    impulses.clear_rows();
     totals.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
-    carry_over(last, pressing);
+    impulses.carry_over(last);
   }
 
 
@@ -183,95 +174,13 @@ namespace Touchstone
   GeneralContact::begin_candidates()
   {
     moving.reinit();
-    last_pressed.assign(candidates.at_slots.n(), 0);
-    pressed_nodes.assign(candidates.at_slots.n(), 0);
-    pressing.clear();
+    impulses.reinit();
     slave_of_pair.assign(candidates.node_faces.size(), 0);
     face_limits.assign(candidates.face_pairs.size());
     apart_faces.assign(candidates.face_pairs.size(), {});
     apart_nodes.assign(candidates.node_faces.size(), {});
     apart_edges.assign(candidates.edge_pairs.size(), {});
     apart_inner.assign(candidates.face_pairs.size(), {});
-  }
-
-
-
-  bool
-  GeneralContact::presses_often(const std::size_t slot) const
-  {
-    const std::uint64_t last = last_pressed[candidates.at_slots.node(slot)];
-    return last > 0 && last + cycles_remembered >= cycles;
-  }
-
-
-
-  void
-  GeneralContact::press(const std::size_t slot, const std::uint64_t in_cycle)
-  {
-    std::uint64_t &last = last_pressed[candidates.at_slots.node(slot)];
-    if (last == 0)
-      pressing.push_back(slot);
-    last = in_cycle;
-  }
-
-
-
-  // Each node is remembered by the rank that has its candidates, which are on one. What has none is
-  // forgotten, whatever the ranks.
-  std::vector<GeneralContact::PressingNode>
-  GeneralContact::pressing_nodes() const
-  {
-    std::vector<PressingNode> result;
-    for (const std::size_t slot : pressing)
-      if (presses_often(slot))
-        {
-          const NodeMotion &of = moving.at(slot);
-          PressingNode      node{candidates.key(slot),
-                            last_pressed[candidates.at_slots.node(slot)],
-                            {},
-                            {}};
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              node.lower[d] = std::min(of.x[d], of.x[d] + moving.cycle * of.v[d]);
-              node.upper[d] = std::max(of.x[d], of.x[d] + moving.cycle * of.v[d]);
-            }
-          result.push_back(node);
-        }
-    return result;
-  }
-
-
-
-  void
-  GeneralContact::carry_over(const std::vector<Pressed>      &last,
-                             const std::vector<PressingNode> &pressing)
-  {
-    const auto to_regions = [&](const auto &what, auto &messages) {
-      std::pair<Point<dim>, Point<dim>> corners(what.lower, what.upper);
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          corners.first[d] -= candidates.reach();
-          corners.second[d] += candidates.reach();
-        }
-      candidates.regions().for_each_owner(BoundingBox<dim>(corners), [&](const unsigned int rank) {
-        messages[rank].push_back(what);
-      });
-    };
-    std::map<unsigned int, std::vector<Pressed>>      of_rows;
-    std::map<unsigned int, std::vector<PressingNode>> of_nodes;
-    for (const Pressed &what : last)
-      to_regions(what, of_rows);
-    for (const PressingNode &what : pressing)
-      to_regions(what, of_nodes);
-    forget();
-    for (const auto &[rank, list] : exchange_records(of_rows, nodes.communicator()))
-      for (const Pressed &what : list)
-        remember(what);
-    for (const auto &[rank, list] : exchange_records(of_nodes, nodes.communicator()))
-      for (const PressingNode &what : list)
-        if (const std::size_t pair = candidates.find_node(what.key);
-            pair < candidates.node_faces.size())
-          press(candidates.node_faces[pair].node, what.cycle);
   }
 
 
@@ -301,11 +210,12 @@ namespace Touchstone
       renew_candidates(u, v, step, moves.largest);
     moving.cycle   = step;
     checks_in_vain = 0;
-    ++cycles;
+    impulses.begin_cycle();
     moving.insets.begin_cycle(u, v_before, step_before);
     if (!candidates.any())
       return;
-    begin_near();
+    moving.clear();
+    impulses.add_nodes_to(moving, rows);
     find_near();
     moving.import(u, v);
     find_touching_nodes();
@@ -333,6 +243,19 @@ namespace Touchstone
     find_near();
     moving.import(u, v);
     return check_motion(/*ahead=*/false, round <= rounds_in_order);
+  }
+
+
+
+  void
+  GeneralContact::find_near()
+  {
+    near_pairs.clear();
+    face_limits.for_each_reached(travelled + travels, [&](const std::size_t pair) {
+      near_pairs.push_back(pair);
+      moving.add_face(candidates.face_pairs[pair].one);
+      moving.add_face(candidates.face_pairs[pair].other);
+    });
   }
 
 
@@ -418,7 +341,7 @@ namespace Touchstone
     if (is_new)
       {
         rows.emplace_back();
-        last_impulses.emplace_back();
+        impulses.add_row();
         totals.emplace_back();
         new_rows = true;
       }

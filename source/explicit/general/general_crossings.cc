@@ -109,7 +109,7 @@ namespace Touchstone
   bool
   GeneralContact::counts_ahead(const unsigned int i) const
   {
-    return !touches[i] && (is_slave(i) || presses_often(candidates.node_faces[i].node));
+    return !touches[i] && (is_slave(i) || impulses.presses_often(candidates.node_faces[i].node));
   }
 
 

@@ -32,10 +32,10 @@ namespace Touchstone
     const NodeField at_rest(nodes.n_local());
     keep_totals();
     rows.clear();
-    last_impulses.clear();
+    impulses.clear_rows();
     totals.clear();
     numbers.clear();
-    forget();
+    impulses.forget();
     made_at = u;
     margin  = reach;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);

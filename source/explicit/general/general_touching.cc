@@ -81,7 +81,7 @@ namespace Touchstone
     const auto &[node, face, of_faces] = candidates.node_faces[pair];
 
     // The nodes of the other side only where they had to press in the cycle before.
-    if (!is_slave(pair) && pressed_nodes[candidates.at_slots.node(node)] != epoch)
+    if (!is_slave(pair) && !impulses.pressed(node))
       return;
     const auto hit = over_face(pair);
     if (!hit)
@@ -160,7 +160,7 @@ namespace Touchstone
   void
   GeneralContact::find_touching_edges()
   {
-    for (const std::size_t number : watched)
+    for (const std::size_t number : impulses.edges())
       if (auto row = nearest_edges(moving, moving.ends_of(candidates.edge_pairs[number]));
           row && row->gap <= touching * row->size && row->gap >= -overlapping * row->size)
         {

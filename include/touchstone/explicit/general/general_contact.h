@@ -6,16 +6,14 @@
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/explicit/general/general_results.h>
+#include <touchstone/explicit/general/last_impulses.h>
 #include <touchstone/explicit/general/mirror_planes.h>
-#include <touchstone/explicit/general/surface_row.h>
 #include <touchstone/explicit/general/travel_limits.h>
 #include <touchstone/explicit/impulse_solver.h>
 
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -160,7 +158,10 @@ namespace Touchstone
     failure(double time) const;
     /** @brief There were no impulses in the last cycle. */
     void
-    forget();
+    forget()
+    {
+      impulses.forget();
+    }
     /** @} */
 
     /** @brief Energies since begin_interval(), of this rank, as in ImpulseEnergy. */
@@ -216,6 +217,7 @@ namespace Touchstone
     ContactCandidates               candidates;
     /** Its faces in the present cycle. */
     MovingSurface              moving;
+    LastImpulses               impulses;
     std::optional<FrictionRow> friction;
     /** Size of the smallest faces, length; and the part of it that the margin has at least. */
     double                  smallest     = 0.;
@@ -254,53 +256,8 @@ namespace Touchstone
     /** Rows by key. */
     std::unordered_map<RowKey, std::size_t, OfRowKey, OfRowKey> numbers;
     bool                                                        new_rows = false;
-    /** By row its impulse in the cycle before, if that had this number; which goes up whenever
-     * impulses are forgotten. */
-    struct LastImpulse
-    {
-      dealii::Tensor<1, dim> impulse;
-      bool                   sliding = false;
-      std::uint64_t          epoch   = 0;
-    };
-    std::vector<LastImpulse> last_impulses;
-    std::uint64_t            epoch = 1;
-    /** The same of a row on its way to the rank that has its candidates now. */
-    struct Pressed
-    {
-      RowKey                 key;
-      dealii::Tensor<1, dim> impulse;
-      bool                   sliding = false;
-      /** Around the slave side, of edges around both. */
-      dealii::Point<dim> lower, upper;
-    };
-    /** Those that have come. */
-    std::map<RowKey, Pressed> pressed;
-    /** Slaves that slide in the cycle before; by node of the candidates the #epoch in which it
-     * pressed on a face; and pairs of edges that pressed. */
-    std::set<RowKey>           sliding;
-    std::vector<std::uint64_t> pressed_nodes;
-    /** By node of the candidates: the cycle in which it pressed on a face last, counted from 1 in
-     * an interval; 0 if none. */
-    std::vector<std::uint64_t> last_pressed;
-    std::uint64_t              cycles = 0;
-    /** It has pressed on a face not long ago: what it did then it will probably do again. */
-    bool
-    presses_often(std::size_t slot) const;
-    /** A node that has, on its way to the rank that has its candidates now. */
-    struct PressingNode
-    {
-      std::uint64_t      key, cycle;
-      dealii::Point<dim> lower, upper;
-    };
-    std::vector<PressingNode>
-    pressing_nodes() const;
-    /** Slots of those that have. */
-    std::vector<std::size_t> pressing;
-    void
-                             press(std::size_t slot, std::uint64_t in_cycle);
-    std::vector<std::size_t> watched;
-    Energy                   energies;
-    GeneralResults           outcome;
+    Energy                                                      energies;
+    GeneralResults                                              outcome;
     /** By row, since the candidates were made. */
     std::vector<GeneralResults::RowTotal> totals;
     void
@@ -328,27 +285,10 @@ namespace Touchstone
     /** Nothing is known of new candidates. */
     void
     begin_candidates();
-    /** Take what is known of the cycle before to the ranks that have the rows now. */
-    void
-    carry_over(const std::vector<Pressed> &rows, const std::vector<PressingNode> &pressing);
-    void
-    remember(const Pressed &what);
-    std::vector<Pressed>
-    pressed_rows() const;
-    /** Of a row in the cycle before. */
-    dealii::Tensor<1, dim>
-    last_impulse(std::size_t row) const;
-    /** The key of what slides: for nodes without the face. */
-    static RowKey
-    slave_of(const RowKey &key);
     /** Which pairs of faces have nodes that may come together before they have moved by #travels:
      * sets #near_pairs, and adds their faces and nodes to those of the cycle. */
     void
     find_near();
-    /** A cycle begins: of nodes with those of rows that pressed not long ago. */
-    void
-    begin_near();
-
     /** What crosses, in the order in which rows are added. */
     enum class Kind
     {
