@@ -26,11 +26,6 @@ namespace Touchstone
      * many rounds none waits for others. */
     constexpr unsigned int rounds_in_order = 2;
 
-    /** Nodes of the coarser side that pressed on a face in one of so many cycles are looked at with
-     * the free velocities: they are mostly over an edge of the face, where they do not count as
-     * touching, and would ask for a round of their own. */
-    constexpr std::uint64_t cycles_remembered = 16;
-
     /** A gap that was kept open in vain opens by so many times what is missing, or this part of
      * what surfaces are moved inwards by: faces and normals turn on as it opens, and each round
      * costs more than a gap that is wider. */
@@ -56,11 +51,10 @@ namespace Touchstone
     , surface(input, solid, nodes)
     , mirror_planes(input, solid, surface, nodes)
     , candidates(surface, nodes, solid.owned, parameters.search.name)
+    , moving(surface, nodes, candidates)
+    , impulses(candidates, moving, nodes.communicator())
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)
-    , inset_now(nodes.n_local())
-    , inset_before(nodes.n_local())
-    , insets_of(nodes.n_local(), 0)
   {
     double size = std::numeric_limits<double>::max();
     for (const unsigned int node : surface.owned_nodes())
@@ -81,15 +75,11 @@ namespace Touchstone
     renew = true;
     candidates.begin_interval();
     rows.clear();
-    last_impulses.clear();
     totals.clear();
     outcome.begin_interval();
     numbers.clear();
-    forget();
-    std::fill(last_pressed.begin(), last_pressed.end(), 0);
-    pressing.clear();
-    cycles   = 0;
-    begun    = false;
+    impulses.begin_interval();
+    moving.insets.forget();
     energies = Energy();
   }
 
@@ -160,9 +150,8 @@ namespace Touchstone
                                    const double     in_cycle)
   {
     keep_totals();
-    const auto pressing = pressing_nodes();
-    const auto last     = pressed_rows();
-    made_at             = u;
+    const LastImpulses::Carried last = impulses.carried(rows);
+    made_at                          = u;
     since_made.fill(0.);
     const double wanted = parameters.margin_length();
     const double automatic =
@@ -171,12 +160,12 @@ namespace Touchstone
     candidates.find(u, v, step, margin);
     begin_candidates();
     rows.clear();
-    last_impulses.clear();
+    impulses.clear_rows();
     totals.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
-    carry_over(last, pressing);
+    impulses.carry_over(last);
   }
 
 
@@ -184,173 +173,14 @@ namespace Touchstone
   void
   GeneralContact::begin_candidates()
   {
-    motion.resize(candidates.at_slots.n());
-    last_pressed.assign(motion.size(), 0);
-    pressed_nodes.assign(motion.size(), 0);
-    pressing.clear();
-    near_faces.clear();
-    near_nodes.clear();
-    face_is_near.assign(candidates.faces.size(), false);
-    node_is_near.assign(motion.size(), false);
+    moving.reinit();
+    impulses.reinit();
     slave_of_pair.assign(candidates.node_faces.size(), 0);
     face_limits.assign(candidates.face_pairs.size());
-    local.resize(candidates.at_slots.n_owned());
-    for (unsigned int node = 0; node < local.size(); ++node)
-      local[node] = nodes.local(candidates.at_slots.dof(node));
     apart_faces.assign(candidates.face_pairs.size(), {});
     apart_nodes.assign(candidates.node_faces.size(), {});
     apart_edges.assign(candidates.edge_pairs.size(), {});
     apart_inner.assign(candidates.face_pairs.size(), {});
-  }
-
-
-
-  bool
-  GeneralContact::presses_often(const std::size_t slot) const
-  {
-    const std::uint64_t last = last_pressed[candidates.at_slots.node(slot)];
-    return last > 0 && last + cycles_remembered >= cycles;
-  }
-
-
-
-  void
-  GeneralContact::press(const std::size_t slot, const std::uint64_t in_cycle)
-  {
-    std::uint64_t &last = last_pressed[candidates.at_slots.node(slot)];
-    if (last == 0)
-      pressing.push_back(slot);
-    last = in_cycle;
-  }
-
-
-
-  // Each node is remembered by the rank that has its candidates, which are on one. What has none is
-  // forgotten, whatever the ranks.
-  std::vector<GeneralContact::PressingNode>
-  GeneralContact::pressing_nodes() const
-  {
-    std::vector<PressingNode> result;
-    for (const std::size_t slot : pressing)
-      if (presses_often(slot))
-        {
-          const NodeMotion &of = at(slot);
-          PressingNode      node{candidates.key(slot),
-                            last_pressed[candidates.at_slots.node(slot)],
-                            {},
-                            {}};
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              node.lower[d] = std::min(of.x[d], of.x[d] + cycle * of.v[d]);
-              node.upper[d] = std::max(of.x[d], of.x[d] + cycle * of.v[d]);
-            }
-          result.push_back(node);
-        }
-    return result;
-  }
-
-
-
-  void
-  GeneralContact::carry_over(const std::vector<Pressed>      &last,
-                             const std::vector<PressingNode> &pressing)
-  {
-    const auto to_regions = [&](const auto &what, auto &messages) {
-      std::pair<Point<dim>, Point<dim>> corners(what.lower, what.upper);
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          corners.first[d] -= candidates.reach();
-          corners.second[d] += candidates.reach();
-        }
-      candidates.regions().for_each_owner(BoundingBox<dim>(corners), [&](const unsigned int rank) {
-        messages[rank].push_back(what);
-      });
-    };
-    std::map<unsigned int, std::vector<Pressed>>      of_rows;
-    std::map<unsigned int, std::vector<PressingNode>> of_nodes;
-    for (const Pressed &what : last)
-      to_regions(what, of_rows);
-    for (const PressingNode &what : pressing)
-      to_regions(what, of_nodes);
-    forget();
-    for (const auto &[rank, list] : exchange_records(of_rows, nodes.communicator()))
-      for (const Pressed &what : list)
-        remember(what);
-    for (const auto &[rank, list] : exchange_records(of_nodes, nodes.communicator()))
-      for (const PressingNode &what : list)
-        if (const std::size_t pair = candidates.find_node(what.key);
-            pair < candidates.node_faces.size())
-          press(candidates.node_faces[pair].node, what.cycle);
-  }
-
-
-
-  // The surfaces of the check go on from where the cycle before has left them, with its normals, so
-  // that nothing passes through them as normals turn from one cycle to the next. An interval knows
-  // of the cycle before it what a checkpoint knows: where it began.
-  void
-  GeneralContact::import_node(const unsigned int node, const NodeField &u, const NodeField &v)
-  {
-    const unsigned int of = local[node];
-    if (insets_of[of] != insets_now)
-      {
-        inset_before[of] =
-          insets_of[of] + 1 == insets_now ? inset_now[of] : surface.inset(of, begun_before);
-        inset_now[of] = surface.inset(of, begun_at, face_areas, insets_now);
-        insets_of[of] = insets_now;
-      }
-    motion[node] = {surface.position(of, u),
-                    v[of],
-                    inset_now[of].normal,
-                    inset_before[of].normal,
-                    surface.size(of),
-                    inset_now[of].depth,
-                    inset_before[of].depth};
-  }
-
-
-
-  // Of other ranks it is not known what they need.
-  void
-  GeneralContact::import(const NodeField &u, const NodeField &v)
-  {
-    if (candidates.at_slots.alone())
-      for (const unsigned int node : near_nodes)
-        import_node(node, u, v);
-    else
-      {
-        for (unsigned int node = 0; node < local.size(); ++node)
-          import_node(node, u, v);
-        candidates.at_slots.forward(motion);
-      }
-  }
-
-
-
-  void
-  GeneralContact::follow_insets(const NodeField &u,
-                                const NodeField &v_before,
-                                const double     step_before)
-  {
-    bool same = begun;
-    for (const unsigned int node : surface.owned_nodes())
-      same = same && u[node] == begun_at[node];
-    // A cycle that is halved begins where it has begun.
-    if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
-      return;
-    // What belongs to an earlier interval is not that of the cycle before.
-    insets_now += begun ? 1 : 2;
-    if (begun)
-      begun_before.swap(begun_at);
-    else
-      {
-        begun_before = u;
-        if (step_before > 0.)
-          for (unsigned int node = 0; node < nodes.n_local(); ++node)
-            begun_before[node] -= step_before * v_before[node];
-      }
-    begun_at = u;
-    begun    = true;
   }
 
 
@@ -369,23 +199,25 @@ namespace Touchstone
     const Range moves = range([&](const unsigned int n) { return step * v[n]; });
     if (!std::isfinite(moves.largest))
       return; // what is wrong with the velocities is told where the cycle is checked
-    const NodeField &before = begun ? begun_at : u;
-    const Range      moved  = range([&](const unsigned int n) { return u[n] - before[n]; });
+    const NodeField *const start  = moving.insets.start();
+    const NodeField       &before = start ? *start : u;
+    const Range            moved  = range([&](const unsigned int n) { return u[n] - before[n]; });
     travelled += moved.distance;
     travels = moves.distance;
     // What impulses may make of the motion: of the state alone, not of when candidates were made.
     most_in_cycle = std::max(reach * of_impulses * moves.largest, least_margin * smallest);
     if (renew || !candidates_hold(u, moved))
       renew_candidates(u, v, step, moves.largest);
-    cycle          = step;
+    moving.cycle   = step;
     checks_in_vain = 0;
-    ++cycles;
-    follow_insets(u, v_before, step_before);
+    impulses.begin_cycle();
+    moving.insets.begin_cycle(u, v_before, step_before);
     if (!candidates.any())
       return;
-    begin_near();
+    moving.clear();
+    impulses.add_nodes_to(moving, rows);
     find_near();
-    import(u, v);
+    moving.import(u, v);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
@@ -409,8 +241,21 @@ namespace Touchstone
       return Crossings::too_far;
     travels = moves.distance;
     find_near();
-    import(u, v);
+    moving.import(u, v);
     return check_motion(/*ahead=*/false, round <= rounds_in_order);
+  }
+
+
+
+  void
+  GeneralContact::find_near()
+  {
+    near_pairs.clear();
+    face_limits.for_each_reached(travelled + travels, [&](const std::size_t pair) {
+      near_pairs.push_back(pair);
+      moving.add_face(candidates.face_pairs[pair].one);
+      moving.add_face(candidates.face_pairs[pair].other);
+    });
   }
 
 
@@ -424,7 +269,7 @@ namespace Touchstone
   GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
     looks_ahead = ahead;
-    set_inner_positions();
+    moving.set_inner_positions();
     find_open_faces();
     found.clear();
     std::size_t known   = 0;
@@ -484,7 +329,7 @@ namespace Touchstone
     if (there == nullptr)
       return 0.;
     return there->more +
-           opening * std::max(least_missing * inset * row.size, -inner_gap_at_end(row));
+           opening * std::max(least_missing * inset * row.size, -inner_gap_at_end(moving, row));
   }
 
 
@@ -496,7 +341,7 @@ namespace Touchstone
     if (is_new)
       {
         rows.emplace_back();
-        last_impulses.emplace_back();
+        impulses.add_row();
         totals.emplace_back();
         new_rows = true;
       }

@@ -16,7 +16,7 @@ namespace Touchstone
   {
     /** Relative to the points: parts of faces and edges that are larger than these are within this,
      * once for each of two partners. */
-    constexpr double enlarged = 8. * GeneralContact::tie;
+    constexpr double enlarged = 8. * MovingSurface::tie;
 
     /** Hulls of warped faces can overlap where faces do not cross. This is looked at again after so
      * many times. */
@@ -92,8 +92,9 @@ namespace Touchstone
         if (looks_ahead && !may_ask_ahead(number))
           continue;
         const ContactCandidates::FacePair &pair = candidates.face_pairs[number];
-        const MovingCorners &one = inner_corners[pair.one], &other = inner_corners[pair.other];
-        const double         size = std::max(one.size, other.size);
+        const MovingCorners               &one  = moving.inner_corners(pair.one),
+                            &other              = moving.inner_corners(pair.other);
+        const double size                       = std::max(one.size, other.size);
         if (pair.share_node ||
             !stay_apart(TwoFaces{one, other}, one.frame, size, some_patience, apart_faces[number]))
           open_faces.push_back({number, size, one.frame});
@@ -108,7 +109,7 @@ namespace Touchstone
   bool
   GeneralContact::counts_ahead(const unsigned int i) const
   {
-    return !touches[i] && (is_slave(i) || presses_often(candidates.node_faces[i].node));
+    return !touches[i] && (is_slave(i) || impulses.presses_often(candidates.node_faces[i].node));
   }
 
 
@@ -138,7 +139,7 @@ namespace Touchstone
     const ContactCandidates::FacePair &pair = candidates.face_pairs[faces.pair];
     if (kind == Kind::edges)
       each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &known) {
-        check_edges(ends_of(candidates.edge_pairs[i]), faces, known, i);
+        check_edges(moving.ends_of(candidates.edge_pairs[i]), faces, known, i);
       });
     else if (kind == Kind::inner && pair.inner.any())
       check_inner_edges(pair, faces);
@@ -171,64 +172,21 @@ namespace Touchstone
 
 
 
-  std::array<Point<dim>, 2>
-  GeneralContact::inner_edge(const std::array<SurfacePoint, 2> &ends, const bool at_end) const
-  {
-    const Point<dim> begin = inner_position(ends[0], at_end), end = inner_position(ends[1], at_end);
-    const Tensor<1, dim> more = tie * (end - begin);
-    return {{begin - more, end + more}};
-  }
-
-
-
-  void
-  GeneralContact::set_inner_positions(const double part)
-  {
-    inner_from.resize(motion.size());
-    inner_to.resize(motion.size());
-    for (const unsigned int node : near_nodes)
-      {
-        const NodeMotion &of = motion[node];
-        inner_from[node]     = Point<dim>(of.x - part * of.depth_before * of.normal_before);
-        inner_to[node]       = Point<dim>(of.x + cycle * of.v - part * of.depth * of.normal);
-      }
-    middle_from.resize(candidates.faces.size());
-    middle_to.resize(candidates.faces.size());
-    inner_corners.resize(candidates.faces.size());
-    std::array<Point<dim>, 4> x, y;
-    for (const unsigned int face : near_faces)
-      {
-        Tensor<1, dim> from, to;
-        double         largest = 0.;
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            x[a] = inner_position(corner(face, a), false);
-            y[a] = inner_position(corner(face, a), true);
-            from += 0.25 * x[a];
-            to += 0.25 * y[a];
-            largest = std::max(largest, size(corner(face, a)));
-          }
-        middle_from[face] = Point<dim>(from);
-        middle_to[face]   = Point<dim>(to);
-        inner_corners[face].set(x, y, largest);
-      }
-  }
-
-
-
   void
   GeneralContact::check_node(const SurfacePoint &node,
                              const unsigned int  face,
                              const OpenFaces    &faces,
                              Separation         &known)
   {
-    const NodeAndFace both{inner_position(node, false),
-                           inner_position(node, true),
-                           inner_corners[face]};
+    const NodeAndFace both{moving.inner_position(node, false),
+                           moving.inner_position(node, true),
+                           moving.inner_corners(face)};
     if (stay_apart(both, faces.frame, faces.size, some_patience, known))
       return;
     const unsigned int in_reach =
-      both.triangles_in_reach(middle_from[face], middle_to[face], enlarged);
+      both.triangles_in_reach(moving.inner_position(moving.middle(face), false),
+                              moving.inner_position(moving.middle(face), true),
+                              enlarged);
     // Where several triangles are crossed at once, as on the line between them, each has its row:
     // otherwise round-off would choose.
     std::array<std::optional<Crossing>, 4> crossed;
@@ -236,8 +194,8 @@ namespace Touchstone
     for (unsigned int t = 0; t < 4; ++t)
       if (in_reach >> t & 1U)
         {
-          crossed[t] = first_crossing_node_triangle(node_and_triangle(node, face, t, false),
-                                                    node_and_triangle(node, face, t, true));
+          crossed[t] = first_crossing_node_triangle(moving.node_and_triangle(node, face, t, false),
+                                                    moving.node_and_triangle(node, face, t, true));
           if (crossed[t])
             first = std::min(first, crossed[t]->time);
         }
@@ -248,33 +206,14 @@ namespace Touchstone
 
 
 
-  // A node and a triangle of a face, enlarged a little.
-  FourPoints
-  GeneralContact::node_and_triangle(const SurfacePoint &node,
-                                    const unsigned int  face,
-                                    const unsigned int  triangle,
-                                    const bool          at_end) const
-  {
-    FourPoints       x{{inner_position(node, at_end),
-                        inner_position(corner(face, triangle), at_end),
-                        inner_position(corner(face, triangle + 1), at_end),
-                        inner_position(middle(face), at_end)}};
-    const Point<dim> centre(1. / 3. * (x[1] + Tensor<1, dim>(x[2]) + x[3]));
-    for (unsigned int i = 1; i < 4; ++i)
-      x[i] += tie * (x[i] - centre);
-    return x;
-  }
-
-
-
   void
   GeneralContact::keep_out(const SurfacePoint &node,
                            const unsigned int  face,
                            const unsigned int  triangle,
                            const Crossing     &crossing)
   {
-    const FourPoints a = node_and_triangle(node, face, triangle, false),
-                     b = node_and_triangle(node, face, triangle, true);
+    const FourPoints a = moving.node_and_triangle(node, face, triangle, false),
+                     b = moving.node_and_triangle(node, face, triangle, true);
     FourPoints     x;
     Tensor<1, dim> closing = b[0] - a[0];
     for (unsigned int i = 0; i < 4; ++i)
@@ -285,20 +224,20 @@ namespace Touchstone
       }
     Tensor<1, dim> normal = cross_product_3d(x[2] - x[1], x[3] - x[1]);
     if (normal.norm() == 0.)
-      normal = mean(middle(face), &NodeMotion::normal);
-    if (!(normal.norm() > 0.) || !(closing * normal < -nothing * size(node) * normal.norm()))
+      normal = moving.mean(moving.middle(face), &NodeMotion::normal);
+    if (!(normal.norm() > 0.) || !(closing * normal < -nothing * moving.size(node) * normal.norm()))
       return; // it leaves the material
     // Of the triangle as it is.
     std::array<double, 3> weights = crossing.weights;
     for (double &weight : weights)
       weight += tie * (weight - 1. / 3.);
-    found.push_back(node_row(node, face, triangle, weights, normal / normal.norm()));
+    found.push_back(node_row(moving, node, face, triangle, weights, normal / normal.norm()));
   }
 
 
 
   void
-  GeneralContact::check_edges(const Points     &ends,
+  GeneralContact::check_edges(const TwoEdges   &ends,
                               const OpenFaces  &faces,
                               Separation       &known,
                               const std::size_t pair)
@@ -307,7 +246,7 @@ namespace Touchstone
     for (unsigned int side = 0; side < 4; side += 2)
       for (FourPoints *const x : {&a, &b})
         {
-          const auto edge = inner_edge({{ends[side], ends[side + 1]}}, x == &b);
+          const auto edge = moving.inner_edge({{ends[side], ends[side + 1]}}, x == &b);
           (*x)[side]      = edge[0];
           (*x)[side + 1]  = edge[1];
         }
@@ -329,7 +268,7 @@ namespace Touchstone
       return;
     for (double &at_edge : at_edges)
       at_edge += tie * (2. * at_edge - 1.);
-    found.push_back(edge_row(ends, at_edges, normal));
+    found.push_back(edge_row(moving, ends, at_edges, normal));
     found.back().edges = pair;
   }
 
@@ -337,12 +276,12 @@ namespace Touchstone
 
   // Towards the side that the slave comes from; zero where that is within the master.
   Tensor<1, dim>
-  GeneralContact::edge_normal(const Points         &ends,
+  GeneralContact::edge_normal(const TwoEdges       &ends,
                               const Tensor<1, dim> &e,
                               const Tensor<1, dim> &f,
                               const Tensor<1, dim> &closing) const
   {
-    const Tensor<1, dim> out    = outward(ends);
+    const Tensor<1, dim> out    = moving.outward(ends);
     Tensor<1, dim>       normal = cross_product_3d(e, f);
     if (normal.norm() > parallel * e.norm() * f.norm())
       normal *= (normal * closing > 0. ? -1. : 1.) / normal.norm();

@@ -12,24 +12,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  bool
-  GeneralContact::is_warped(const unsigned int face) const
-  {
-    for (const bool at_end : {false, true})
-      {
-        std::array<Point<dim>, 4> x;
-        for (unsigned int a = 0; a < 4; ++a)
-          x[a] = inner_position(corner(face, a), at_end);
-        const Tensor<1, dim> normal = cross_product_3d(x[2] - x[0], x[3] - x[1]);
-        if (std::abs(normal * (x[0] - x[1] + x[2] - x[3])) >
-            inset * at(4 * std::size_t(face)).depth * normal.norm())
-          return true;
-      }
-    return false;
-  }
-
-
-
   // What another pair of faces looks at is left alone.
   std::vector<GeneralContact::Separation>
   GeneralContact::separations_of_inner_edges(const ContactCandidates::FacePair &pair) const
@@ -62,7 +44,7 @@ namespace Touchstone
     const auto far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
     if (std::all_of(known.begin(), known.end(), far_apart))
       return;
-    const bool of_one = is_warped(one), of_other = is_warped(other);
+    const bool of_one = moving.is_warped(one), of_other = moving.is_warped(other);
     if (!of_one && !of_other)
       return;
     // Edges of both faces, and from their corners to the middles; their boxes only if nothing is
@@ -72,16 +54,16 @@ namespace Touchstone
       for (unsigned int a = 0; a < 4; ++a)
         {
           const unsigned int face = side == 0 ? one : other;
-          edges[side][a]          = ends_of(corner(face, a).slot);
-          edges[side][4 + a]      = {{corner(face, a), middle(face)}};
+          edges[side][a]          = moving.ends_of(moving.corner(face, a).slot);
+          edges[side][4 + a]      = {{moving.corner(face, a), moving.middle(face)}};
         }
     std::array<std::array<MotionBox, 8>, 2> boxes;
     bool                                    boxed = false;
     const auto apart = [&](const unsigned int e, const unsigned int f) {
       for (unsigned int side = 0; side < 2 && !boxed; ++side)
         for (unsigned int a = 0; a < 8; ++a)
-          boxes[side][a] =
-            MotionBox(inner_edge(edges[side][a], false), inner_edge(edges[side][a], true));
+          boxes[side][a] = MotionBox(moving.inner_edge(edges[side][a], false),
+                                     moving.inner_edge(edges[side][a], true));
       boxed = true;
       return boxes[0][e].distance(boxes[1][f]);
     };
@@ -100,8 +82,8 @@ namespace Touchstone
                         of);
         }
     if (of_one && !far_apart(known[n]))
-      check_node(middle(one), other, faces, known[n]);
+      check_node(moving.middle(one), other, faces, known[n]);
     if (of_other && !far_apart(known[n + 1]))
-      check_node(middle(other), one, faces, known[n + 1]);
+      check_node(moving.middle(other), one, faces, known[n + 1]);
   }
 } // namespace Touchstone

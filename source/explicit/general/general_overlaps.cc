@@ -32,20 +32,20 @@ namespace Touchstone
     const NodeField at_rest(nodes.n_local());
     keep_totals();
     rows.clear();
-    last_impulses.clear();
+    impulses.clear_rows();
     totals.clear();
     numbers.clear();
-    forget();
+    impulses.forget();
     made_at = u;
     margin  = reach;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     begin_candidates();
-    begun = false;
-    follow_insets(u, at_rest, 0.);
-    cycle = 0.;
+    moving.insets.forget();
+    moving.insets.begin_cycle(u, at_rest, 0.);
+    moving.cycle = 0.;
     find_near();
-    import(u, at_rest);
-    set_inner_positions(inwards);
+    moving.import(u, at_rest);
+    moving.set_inner_positions(inwards);
     renew = true;
   }
 
@@ -58,19 +58,20 @@ namespace Touchstone
     const auto check = [&](const unsigned int of, const unsigned int face) {
       for (unsigned int a = 0; a < 4; ++a)
         {
-          const SurfacePoint begin = corner(of, a), end = corner(of, a + 1);
+          const SurfacePoint begin = moving.corner(of, a), end = moving.corner(of, a + 1);
           // An edge that hangs on the cell of the face meets it where it begins.
-          if (candidates.faces[face].of_cell(key(begin)) ||
-              candidates.faces[face].of_cell(key(end)))
+          if (candidates.faces[face].of_cell(moving.key(begin)) ||
+              candidates.faces[face].of_cell(moving.key(end)))
             continue;
-          const Point<dim> p = inner_position(begin, false), q = inner_position(end, false);
+          const Point<dim> p = moving.inner_position(begin, false),
+                           q = moving.inner_position(end, false);
           for (unsigned int t = 0; t < 4; ++t)
             {
               // The edge as the path of a node.
               const FourPoints start{{p,
-                                      inner_position(corner(face, t), false),
-                                      inner_position(corner(face, t + 1), false),
-                                      inner_position(middle(face), false)}};
+                                      moving.inner_position(moving.corner(face, t), false),
+                                      moving.inner_position(moving.corner(face, t + 1), false),
+                                      moving.inner_position(moving.middle(face), false)}};
               FourPoints       through = start;
               through[0]               = q;
               if (first_crossing_node_triangle(start, through))
@@ -97,19 +98,19 @@ namespace Touchstone
                               const unsigned int  face) const
   {
     std::optional<Row> best;
-    const bool         ascends = key(begin) < key(end);
-    const auto         against = [&](const std::array<SurfacePoint, 2> &other) {
+    const bool         ascends = moving.key(begin) < moving.key(end);
+    const auto         against = [&](const MovingSurface::Edge &other) {
       const auto row =
-        nearest_edges({{ascends ? begin : end, ascends ? end : begin, other[0], other[1]}});
+        nearest_edges(moving, {{ascends ? begin : end, ascends ? end : begin, other[0], other[1]}});
       if (row && row->gap < -shallow * row->size && row->gap > -deepest * row->size &&
           (!best || row->gap > best->gap))
         best = row;
     };
     for (unsigned int b = 0; b < 4; ++b)
       {
-        against(ends_of(corner(face, b).slot));
+        against(moving.ends_of(moving.corner(face, b).slot));
         // Warped faces stand out along the lines to their middle.
-        against({{corner(face, b), middle(face)}});
+        against({{moving.corner(face, b), moving.middle(face)}});
       }
     return best;
   }
@@ -142,7 +143,8 @@ namespace Touchstone
     for (unsigned int i = 0; i < candidates.node_faces.size(); ++i)
       if (const auto hit = over_face(i); hit && hit->opposed < 0. && hit->gap < 0.)
         {
-          const Row row = node_row({candidates.node_faces[i].node, false},
+          const Row row = node_row(moving,
+                                   {candidates.node_faces[i].node, false},
                                    hit->face,
                                    hit->triangle,
                                    hit->weights,
@@ -154,7 +156,7 @@ namespace Touchstone
     // Edges pass through faces where nodes are within bodies, too.
     if (Utilities::MPI::max(deep, nodes.communicator()) == 0)
       for_each_crossing([&](const unsigned int of, const unsigned int a, const unsigned int face) {
-        if (const auto row = passed_edge(corner(of, a), corner(of, a + 1), face))
+        if (const auto row = passed_edge(moving.corner(of, a), moving.corner(of, a + 1), face))
           add(*row);
       });
     std::vector<Overlap> all = gather_all(mine, nodes.communicator()), result;
@@ -162,7 +164,8 @@ namespace Touchstone
       return a.key < b.key;
     });
     for (const Overlap &one : all)
-      if (result.empty() || one.key.pair != on_faces || result.back().key.slave != one.key.slave)
+      if (result.empty() || one.key.pair != SurfaceRow::on_faces ||
+          result.back().key.slave != one.key.slave)
         {
           // Edges are found once from each side.
           if (result.empty() || result.back().key < one.key)

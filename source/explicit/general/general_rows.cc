@@ -24,20 +24,12 @@ namespace Touchstone
         row.friction = friction ? &*friction : nullptr;
         // Once for the row, once for its lever.
         for (unsigned int k = 0; k < 2; ++k)
-          for (const Side &side : from.sides)
+          for (const SurfaceRow::Side &side : from.sides)
             for (unsigned int i = 0; i < side.n; ++i)
               slots.emplace_back(candidates.dof(side.slots[i]), row.key);
         to.push_back(row);
       }
     new_rows = false;
-  }
-
-
-
-  RowKey
-  GeneralContact::slave_of(const RowKey &key)
-  {
-    return key.pair == on_faces ? RowKey{key.pair, key.slave, {}} : key;
   }
 
 
@@ -57,8 +49,8 @@ namespace Touchstone
           for (unsigned int side = 0; side < 2; ++side)
             for (unsigned int i = 0; i < from.sides[side].n; ++i)
               solver.weights[s++] = (side == 0 ? 1. : -1.) * from.sides[side].weights[i];
-          row.impulse = last_impulse(k);
-          row.sliding = !sliding.empty() && sliding.count(slave_of(row.key)) > 0;
+          row.impulse = impulses.impulse(k, row.key);
+          row.sliding = impulses.slides(row.key);
           row.normal  = from.normal;
           if (row.friction)
             row.tangential = tangential_projector(row.normal);
@@ -76,58 +68,13 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  GeneralContact::last_impulse(const std::size_t k) const
-  {
-    if (last_impulses[k].epoch == epoch)
-      return last_impulses[k].impulse;
-    const auto carried = pressed.find(rows[k].key);
-    return carried != pressed.end() ? carried->second.impulse : Tensor<1, dim>();
-  }
-
-
-
-  void
-  GeneralContact::remember(const Pressed &what)
-  {
-    pressed[what.key] = what;
-    if (what.sliding)
-      sliding.insert(slave_of(what.key));
-    if (what.key.pair == on_faces)
-      {
-        if (const std::size_t pair = candidates.find_node(what.key.slave);
-            pair < candidates.node_faces.size())
-          pressed_nodes[candidates.at_slots.node(candidates.node_faces[pair].node)] = epoch;
-      }
-    else
-      {
-        const std::size_t number = candidates.find_edges(
-          {{what.key.slave, what.key.others[0], what.key.others[1], what.key.others[2]}});
-        if (number < candidates.edge_pairs.size())
-          watched.push_back(number);
-      }
-  }
-
-
-
-  void
-  GeneralContact::forget()
-  {
-    ++epoch;
-    pressed.clear();
-    sliding.clear();
-    watched.clear();
-  }
-
-
-
   void
   GeneralContact::keep_results(const ImpulseSolver               &solver,
                                const std::size_t                  first,
                                const std::vector<Tensor<1, dim>> &v_before,
                                ExactSum                          &given)
   {
-    forget();
+    impulses.forget();
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (const ImpulseRow &row = solver.rows[first + k];
           rows[k].used && row.impulse.norm_square() > 0.)
@@ -153,53 +100,8 @@ namespace Touchstone
             for (unsigned int i = 0; i < rows[k].sides[side].n; ++i)
               total.impulses[node++] +=
                 (side == 0 ? 1. : -1.) * rows[k].sides[side].weights[i] * row.impulse;
-          last_impulses[k] = {row.impulse, row.friction && row.sliding, epoch};
-          if (last_impulses[k].sliding)
-            sliding.insert(slave_of(row.key));
-          const Side &slave = rows[k].sides[0];
-          if (row.key.pair == on_faces && slave.n == 1)
-            {
-              press(slave.slots[0], cycles);
-              pressed_nodes[candidates.at_slots.node(slave.slots[0])] = epoch;
-            }
-          else if (rows[k].edges < candidates.edge_pairs.size())
-            watched.push_back(rows[k].edges);
+          impulses.keep(k, rows[k], row.impulse, row.friction && row.sliding);
         }
-  }
-
-
-
-  // Where the cycle has taken them.
-  std::vector<GeneralContact::Pressed>
-  GeneralContact::pressed_rows() const
-  {
-    std::vector<Pressed> result;
-    for (const auto &carried : pressed)
-      result.push_back(carried.second);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (last_impulses[k].epoch == epoch)
-        {
-          const Row &row = rows[k];
-          Pressed    what;
-          what.key     = row.key;
-          what.impulse = last_impulses[k].impulse;
-          what.sliding = last_impulses[k].sliding;
-          what.lower = what.upper = Point<dim>(at(row.sides[0].slots[0]).x);
-          // Of inner edges the slave side alone does not say on which rank their candidates are.
-          for (unsigned int side = 0; side < (row.key.pair == on_edges ? 2U : 1U); ++side)
-            for (unsigned int i = 0; i < row.sides[side].n; ++i)
-              {
-                const NodeMotion &of = at(row.sides[side].slots[i]);
-                for (const Tensor<1, dim> &x : {of.x, of.x + cycle * of.v})
-                  for (unsigned int d = 0; d < dim; ++d)
-                    {
-                      what.lower[d] = std::min(what.lower[d], x[d]);
-                      what.upper[d] = std::max(what.upper[d], x[d]);
-                    }
-              }
-          result.push_back(what);
-        }
-    return result;
   }
 
 
@@ -212,7 +114,7 @@ namespace Touchstone
         {
           std::array<Index, 8> dofs{};
           unsigned int         n = 0;
-          for (const Side &side : rows[k].sides)
+          for (const SurfaceRow::Side &side : rows[k].sides)
             for (unsigned int i = 0; i < side.n; ++i)
               dofs[n++] = candidates.dof(side.slots[i]);
           outcome.add(dofs, n, totals[k]);

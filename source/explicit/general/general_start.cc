@@ -80,11 +80,12 @@ namespace Touchstone
       if (last == std::make_pair(of, face))
         return;
       last = {of, face};
-      places.push_back({candidates.faces[of].key,
-                        candidates.faces[of].body,
-                        candidates.faces[face].body,
-                        Point<dim>(0.5 * (inner_position(corner(of, a), false) +
-                                          inner_position(corner(of, a + 1), false)))});
+      places.push_back(
+        {candidates.faces[of].key,
+         candidates.faces[of].body,
+         candidates.faces[face].body,
+         Point<dim>(0.5 * (moving.inner_position(moving.corner(of, a), false) +
+                           moving.inner_position(moving.corner(of, a + 1), false)))});
     });
     const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     std::sort(places.begin(), places.end(), by_key);
@@ -117,7 +118,7 @@ namespace Touchstone
     Place place{std::numeric_limits<std::uint64_t>::max(), 0, 0, {}};
     for (const Row &row : rows)
       if (row.used && row.key.slave < place.key)
-        place = {row.key.slave, 0, 0, Point<dim>(at(row.sides[0].slots[0]).x)};
+        place = {row.key.slave, 0, 0, Point<dim>(moving.at(row.sides[0].slots[0]).x)};
     for (const std::vector<Place> &of_rank :
          gather_records(std::vector<Place>{place}, nodes.communicator()))
       if (of_rank.front().key < place.key)

@@ -15,117 +15,7 @@ namespace Touchstone
     /** Relative to the size of the faces: by so much surfaces are moved inwards for the check of
      * crossings, a gap that is closed, and an overlap that is still one of this pair. */
     constexpr double touching = 4. * GeneralContact::inset, overlapping = 0.01;
-
-    /** Relative, of sizes that are the same. */
-    constexpr double round_off = 1e-9;
   } // namespace
-
-
-
-  Tensor<1, dim>
-  GeneralContact::mean(const SurfacePoint &point, Tensor<1, dim> NodeMotion::*const quantity) const
-  {
-    if (!point.middle)
-      return at(point.slot).*quantity;
-    Tensor<1, dim>    sum;
-    const std::size_t first = point.slot - point.slot % 4;
-    for (unsigned int a = 0; a < 4; ++a)
-      sum += 0.25 * (at(first + a).*quantity);
-    return sum;
-  }
-
-
-
-  std::uint64_t
-  GeneralContact::key(const SurfacePoint &point) const
-  {
-    // Keys of faces have room for a bit that those of nodes do not have.
-    constexpr std::uint64_t of_middles = std::uint64_t(1) << 63;
-    return point.middle ? candidates.faces[point.slot / 4].key | of_middles
-                        : candidates.key(point.slot);
-  }
-
-
-
-  void
-  GeneralContact::Side::add(const SurfacePoint &point, const double weight)
-  {
-    const std::size_t  first = point.middle ? point.slot - point.slot % 4 : point.slot;
-    const unsigned int last  = point.middle ? 4 : 1;
-    for (unsigned int a = 0; a < last; ++a)
-      {
-        unsigned int i = 0;
-        while (i < n && slots[i] != first + a)
-          ++i;
-        if (i == n)
-          slots[n++] = first + a;
-        weights[i] += weight / last;
-      }
-  }
-
-
-
-  double
-  GeneralContact::gap_at_start(const Row &row) const
-  {
-    Tensor<1, dim> between;
-    for (unsigned int i = 0; i < row.sides[0].n; ++i)
-      between += row.sides[0].weights[i] * at(row.sides[0].slots[i]).x;
-    for (unsigned int i = 0; i < row.sides[1].n; ++i)
-      between -= row.sides[1].weights[i] * at(row.sides[1].slots[i]).x;
-    return between * row.normal;
-  }
-
-
-
-  double
-  GeneralContact::inner_gap_at_end(const Row &row) const
-  {
-    Tensor<1, dim> between;
-    for (unsigned int side = 0; side < 2; ++side)
-      for (unsigned int i = 0; i < row.sides[side].n; ++i)
-        between += (side == 0 ? 1. : -1.) * row.sides[side].weights[i] *
-                   Tensor<1, dim>(inner_to[candidates.at_slots.node(row.sides[side].slots[i])]);
-    return between * row.normal;
-  }
-
-
-
-  GeneralContact::Row
-  GeneralContact::node_row(const SurfacePoint          &node,
-                           const unsigned int           face,
-                           const unsigned int           triangle,
-                           const std::array<double, 3> &weights,
-                           const Tensor<1, dim>        &normal) const
-  {
-    Row row;
-    row.key = {on_faces, key(node), {{candidates.faces[face].key, triangle}}};
-    row.sides[0].add(node, 1.);
-    for (unsigned int a = 0; a < 4; ++a) // always all corners, in the order of the face
-      row.sides[1].add(corner(face, a), 0.25 * weights[2]);
-    row.sides[1].add(corner(face, triangle), weights[0]);
-    row.sides[1].add(corner(face, triangle + 1), weights[1]);
-    row.normal = normal;
-    row.size   = std::min(size(node), size(corner(face, triangle)));
-    row.gap    = gap_at_start(row);
-    return row;
-  }
-
-
-
-  // The finer surface is the slave; where both are alike, the body or node that comes first.
-  bool
-  GeneralContact::is_slave(const std::size_t node, const unsigned int face) const
-  {
-    double other = 0.;
-    for (unsigned int a = 0; a < 4; ++a)
-      other += 0.25 * size(corner(face, a));
-    const double own = at(node).size;
-    if (std::abs(own - other) > round_off * other)
-      return own < other;
-    const ImpactFace &of = candidates.faces[node / 4], &to = candidates.faces[face];
-    return of.body != to.body ? of.body < to.body : candidates.key(node) < to.nodes[0];
-  }
 
 
 
@@ -136,7 +26,7 @@ namespace Touchstone
     if (known == 0)
       {
         const auto &[node, face, of_faces] = candidates.node_faces[pair];
-        known                              = is_slave(node, face) ? 1 : 2;
+        known                              = moving.is_slave(node, face) ? 1 : 2;
       }
     return known == 1;
   }
@@ -147,11 +37,11 @@ namespace Touchstone
   GeneralContact::over_face(const unsigned int pair) const
   {
     const auto &[node, face, of_faces] = candidates.node_faces[pair];
-    const Tensor<1, dim>         &x    = at(node).x;
+    const Tensor<1, dim>         &x    = moving.at(node).x;
     std::array<Tensor<1, dim>, 4> corners;
     for (unsigned int i = 0; i < 4; ++i)
-      corners[i] = at(corner(face, i).slot).x - x;
-    const Tensor<1, dim> c = mean(middle(face), &NodeMotion::x) - x;
+      corners[i] = moving.at(moving.corner(face, i).slot).x - x;
+    const Tensor<1, dim> c = moving.mean(moving.middle(face), &NodeMotion::x) - x;
     Hit                  best;
     double               inside = -tie;
     for (unsigned int t = 0; t < 4; ++t)
@@ -179,7 +69,7 @@ namespace Touchstone
     if (best.face == numbers::invalid_unsigned_int)
       return {};
     best.pair    = pair;
-    best.opposed = at(node).normal * best.normal;
+    best.opposed = moving.at(node).normal * best.normal;
     return best;
   }
 
@@ -191,12 +81,13 @@ namespace Touchstone
     const auto &[node, face, of_faces] = candidates.node_faces[pair];
 
     // The nodes of the other side only where they had to press in the cycle before.
-    if (!is_slave(pair) && pressed_nodes[candidates.at_slots.node(node)] != epoch)
+    if (!is_slave(pair) && !impulses.pressed(node))
       return;
     const auto hit = over_face(pair);
     if (!hit)
       return;
-    const double h = std::min(at(node).size, size(corner(face, hit->triangle)));
+    const double h =
+      std::min(moving.at(node).size, moving.size(moving.corner(face, hit->triangle)));
     if (hit->gap <= touching * h && hit->gap >= -overlapping * h && hit->opposed <= 0.)
       hits.push_back(*hit);
   }
@@ -209,8 +100,8 @@ namespace Touchstone
   bool
   GeneralContact::stand_together(const Hit &one, const Hit &other, const std::size_t node) const
   {
-    const Tensor<1, dim> &x         = at(node).x;
-    const double          tolerance = touching * at(node).size;
+    const Tensor<1, dim> &x         = moving.at(node).x;
+    const double          tolerance = touching * moving.at(node).size;
     if ((one.middle - x) * other.normal > tolerance && (other.middle - x) * one.normal > tolerance)
       return true;
     // Two plates that a node is between face each other.
@@ -259,81 +150,9 @@ namespace Touchstone
         for (const Hit &hit : kept)
           {
             touches[hit.pair] = true;
-            use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
+            use(node_row(moving, {node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
           }
       }
-  }
-
-
-
-  std::array<SurfacePoint, 2>
-  GeneralContact::ends_of(const std::size_t edge) const
-  {
-    const std::size_t other = ContactCandidates::next(edge);
-    const bool        first = candidates.key(edge) < candidates.key(other);
-    return {{{first ? edge : other, false}, {first ? other : edge, false}}};
-  }
-
-
-
-  GeneralContact::Points
-  GeneralContact::ends_of(const ContactCandidates::EdgePair &pair) const
-  {
-    const auto e = ends_of(pair.one), f = ends_of(pair.other);
-    return {{e[0], e[1], f[0], f[1]}};
-  }
-
-
-
-  Tensor<1, dim>
-  GeneralContact::outward(const Points &ends) const
-  {
-    return mean(ends[2], &NodeMotion::normal) + mean(ends[3], &NodeMotion::normal) -
-           mean(ends[0], &NodeMotion::normal) - mean(ends[1], &NodeMotion::normal);
-  }
-
-
-
-  GeneralContact::Row
-  GeneralContact::edge_row(const Points                &ends,
-                           const std::array<double, 2> &at_edges,
-                           const Tensor<1, dim>        &normal) const
-  {
-    Row row;
-    row.key = {on_edges, key(ends[0]), {{key(ends[1]), key(ends[2]), key(ends[3])}}};
-    for (unsigned int side = 0; side < 2; ++side)
-      {
-        // Sides with a middle always have all corners, in the order of the face.
-        if (ends[2 * side + 1].middle)
-          row.sides[side].add(ends[2 * side + 1], at_edges[side]);
-        row.sides[side].add(ends[2 * side], 1. - at_edges[side]);
-        if (!ends[2 * side + 1].middle)
-          row.sides[side].add(ends[2 * side + 1], at_edges[side]);
-      }
-    row.normal = normal;
-    row.size   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
-    row.gap    = gap_at_start(row);
-    return row;
-  }
-
-
-
-  std::optional<GeneralContact::Row>
-  GeneralContact::nearest_edges(const Points &ends) const
-  {
-    const Tensor<1, dim> a = mean(ends[0], &NodeMotion::x), e = mean(ends[1], &NodeMotion::x) - a,
-                         b = mean(ends[2], &NodeMotion::x), f = mean(ends[3], &NodeMotion::x) - b;
-    const Tensor<1, dim> across = cross_product_3d(e, f);
-    const double         square = across.norm_square();
-    if (!(square > 1e-12 * e.norm_square() * f.norm_square()))
-      return {}; // parallel: nodes on faces serve them
-    const double s = cross_product_3d(b - a, f) * across / square,
-                 t = cross_product_3d(b - a, e) * across / square;
-    if (std::min({s, t, 1. - s, 1. - t}) < -tie)
-      return {};
-    const Tensor<1, dim> normal =
-      (across * outward(ends) < 0. ? -1. : 1.) / std::sqrt(square) * across;
-    return edge_row(ends, {{s, t}}, normal);
   }
 
 
@@ -341,8 +160,8 @@ namespace Touchstone
   void
   GeneralContact::find_touching_edges()
   {
-    for (const std::size_t number : watched)
-      if (auto row = nearest_edges(ends_of(candidates.edge_pairs[number]));
+    for (const std::size_t number : impulses.edges())
+      if (auto row = nearest_edges(moving, moving.ends_of(candidates.edge_pairs[number]));
           row && row->gap <= touching * row->size && row->gap >= -overlapping * row->size)
         {
           row->edges = number;

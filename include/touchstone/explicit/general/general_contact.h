@@ -4,33 +4,22 @@
 #define touchstone_explicit_general_general_contact_h
 
 #include <touchstone/base/exact_sum.h>
-#include <touchstone/collision/first_crossing.h>
-#include <touchstone/explicit/general/contact_candidates.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/explicit/general/general_results.h>
+#include <touchstone/explicit/general/last_impulses.h>
 #include <touchstone/explicit/general/mirror_planes.h>
-#include <touchstone/explicit/general/moving_faces.h>
 #include <touchstone/explicit/general/travel_limits.h>
 #include <touchstone/explicit/impulse_solver.h>
 
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief A point of a surface: a corner of a face by its slot, or the middle of the face. */
-  struct SurfacePoint
-  {
-    std::size_t slot   = 0;
-    bool        middle = false;
-  };
-
   /**
    * @brief Everything touches everything, in explicit dynamics: the rows that keep surfaces from
    * crossing each other, wherever they meet (doc/general_contact.md).
@@ -169,7 +158,10 @@ namespace Touchstone
     failure(double time) const;
     /** @brief There were no impulses in the last cycle. */
     void
-    forget();
+    forget()
+    {
+      impulses.forget();
+    }
     /** @} */
 
     /** @brief Energies since begin_interval(), of this rank, as in ImpulseEnergy. */
@@ -194,62 +186,19 @@ namespace Touchstone
       return candidates.any();
     }
 
-    /** By this part of their size surfaces are moved inwards for the check of crossings: sides that
-     * touch, or are flush with each other, do not cross, and what rows leave open, as faces turn
-     * and nodes slide within a cycle, is no crossing (doc/general_contact.md, section 3). */
-    static constexpr double inset = 1e-4;
-
-    /** Relative to a face, an edge, a cycle: what is so near to their ends is within, and what
-     * happens so nearly at once happens at once. Of what meets exactly on lines between faces or at
-     * ends of edges nothing is left to round-off. */
-    static constexpr double tie = 1e-6;
+    /** @copydoc MovingSurface::inset */
+    static constexpr double inset = MovingSurface::inset;
 
   private:
+    using Row        = SurfaceRow;
+    using NodeMotion = MovingSurface::NodeMotion;
+    using TwoEdges   = MovingSurface::TwoEdges;
+
+    static constexpr double tie = MovingSurface::tie;
     /** Relative to the size of faces: what is farther apart does not touch, however surfaces that
      * are moved inwards turn. */
     static constexpr double reserve = 0.012;
 
-    /** First numbers of the keys of rows, above all numbers of pairs. */
-    static constexpr std::uint64_t on_faces = std::uint64_t(1) << 32, on_edges = on_faces + 1;
-
-    /** A point as a sum of nodes by slots, at most a face. */
-    struct Side
-    {
-      unsigned int               n = 0;
-      std::array<std::size_t, 4> slots{};
-      std::array<double, 4>      weights{};
-
-      void
-      add(const SurfacePoint &point, double weight);
-    };
-    struct Row
-    {
-      RowKey key;
-      /** Slave and master side, and the outward normal of the latter. */
-      std::array<Side, 2>    sides;
-      dealii::Tensor<1, dim> normal;
-      /** Size of the faces, length, and the gap at the start of the cycle. */
-      double size = 0., gap = 0.;
-      /** By how much the gap must open in this cycle beyond what it may end with, length: it was
-       * to be kept open before, and surfaces that are moved inwards crossed all the same. */
-      double more = 0.;
-      /** It is open as far as that takes no work. */
-      bool fully_open = false;
-      /** Takes part in this cycle. */
-      bool used = false;
-      /** The pair of edges that it is of, if any. */
-      std::size_t edges = std::numeric_limits<std::size_t>::max();
-    };
-    /** What is known of a slot's node in a cycle. The normals are those at its start and at the
-     * start of the cycle before. */
-    struct NodeMotion
-    {
-      dealii::Tensor<1, dim> x, v, normal, normal_before;
-      /** Length, as of ImpactSurface; the depth as the normals. */
-      double size = 0., depth = 0., depth_before = 0.;
-    };
-    /** The ends of two edges, of the slave first. */
-    using Points = std::array<SurfacePoint, 4>;
     /** A node over one of the four triangles of a face. */
     struct Hit
     {
@@ -266,25 +215,18 @@ namespace Touchstone
     ImpactSurface                   surface;
     MirrorPlanes                    mirror_planes;
     ContactCandidates               candidates;
-    std::optional<FrictionRow>      friction;
+    /** Its faces in the present cycle. */
+    MovingSurface              moving;
+    LastImpulses               impulses;
+    std::optional<FrictionRow> friction;
     /** Size of the smallest faces, length; and the part of it that the margin has at least. */
     double                  smallest     = 0.;
     static constexpr double least_margin = 0.05;
     /** Candidates hold as long as nodes have moved relative to each other by less than the margin
      * since they stood here. The present cycle may move them by its part of it. */
     NodeField made_at;
-    /** Local numbers of the owned nodes of the candidates. */
-    std::vector<unsigned int> local;
-    double                    margin = 0., most_in_cycle = 0.;
-    bool                      renew = true;
-    /** By node of the candidates, at the start of the cycle. */
-    std::vector<NodeMotion> motion;
-    double                  cycle = 0.;
-    /** Positions of nodes and of middles of faces on surfaces that are moved inwards, at the start
-     * and at the end; of #near_faces. */
-    std::vector<dealii::Point<dim>> inner_from, inner_to, middle_from, middle_to;
-    /** The corners there by face. */
-    std::vector<MovingCorners> inner_corners;
+    double    margin = 0., most_in_cycle = 0.;
+    bool      renew = true;
     /** What is known of a candidate from earlier looks: that nothing of it crosses or touches
      * before nodes have #travelled so far, length, and the direction that told its points apart, in
      * the TurningFrame of the first of the pair of faces that it belongs to, if one did. */
@@ -310,76 +252,12 @@ namespace Touchstone
     double travelled = 0., travels = 0.;
     /** Pairs of faces whose nodes may come together in the present motion. */
     std::vector<unsigned int> near_pairs;
-    /** Faces and nodes that the present cycle has to do with so far, and whether they are. */
-    std::vector<unsigned int> near_faces, near_nodes;
-    std::vector<char>         face_is_near, node_is_near;
     std::vector<Row>          rows;
     /** Rows by key. */
-    struct OfKey
-    {
-      std::size_t
-      operator()(const RowKey &key) const
-      {
-        std::uint64_t h = key.pair;
-        for (const std::uint64_t next : {key.slave, key.others[0], key.others[1], key.others[2]})
-          h = (h ^ (h >> 29)) * 0x9E3779B97F4A7C15ull + next;
-        return h ^ (h >> 32);
-      }
-      bool
-      operator()(const RowKey &a, const RowKey &b) const
-      {
-        return a.slave == b.slave && a.others == b.others && a.pair == b.pair;
-      }
-    };
-    std::unordered_map<RowKey, std::size_t, OfKey, OfKey> numbers;
-    bool                                                  new_rows = false;
-    /** By row its impulse in the cycle before, if that had this number; which goes up whenever
-     * impulses are forgotten. */
-    struct LastImpulse
-    {
-      dealii::Tensor<1, dim> impulse;
-      bool                   sliding = false;
-      std::uint64_t          epoch   = 0;
-    };
-    std::vector<LastImpulse> last_impulses;
-    std::uint64_t            epoch = 1;
-    /** The same of a row on its way to the rank that has its candidates now. */
-    struct Pressed
-    {
-      RowKey                 key;
-      dealii::Tensor<1, dim> impulse;
-      bool                   sliding = false;
-      /** Around the slave side, of edges around both. */
-      dealii::Point<dim> lower, upper;
-    };
-    /** Those that have come. */
-    std::map<RowKey, Pressed> pressed;
-    /** Slaves that slide in the cycle before; by node of the candidates the #epoch in which it
-     * pressed on a face; and pairs of edges that pressed. */
-    std::set<RowKey>           sliding;
-    std::vector<std::uint64_t> pressed_nodes;
-    /** By node of the candidates: the cycle in which it pressed on a face last, counted from 1 in
-     * an interval; 0 if none. */
-    std::vector<std::uint64_t> last_pressed;
-    std::uint64_t              cycles = 0;
-    /** It has pressed on a face not long ago: what it did then it will probably do again. */
-    bool
-    presses_often(std::size_t slot) const;
-    /** A node that has, on its way to the rank that has its candidates now. */
-    struct PressingNode
-    {
-      std::uint64_t      key, cycle;
-      dealii::Point<dim> lower, upper;
-    };
-    std::vector<PressingNode>
-    pressing_nodes() const;
-    /** Slots of those that have. */
-    std::vector<std::size_t> pressing;
-    void
-                             press(std::size_t slot, std::uint64_t in_cycle);
-    std::vector<std::size_t> watched;
-    Energy                   energies;
-    GeneralResults           outcome;
+    std::unordered_map<RowKey, std::size_t, OfRowKey, OfRowKey> numbers;
+    bool                                                        new_rows = false;
+    Energy                                                      energies;
+    GeneralResults                                              outcome;
     /** By row, since the candidates were made. */
     std::vector<GeneralResults::RowTotal> totals;
     void
@@ -407,86 +285,10 @@ namespace Touchstone
     /** Nothing is known of new candidates. */
     void
     begin_candidates();
-    void
-    import(const NodeField &u, const NodeField &v);
-    /** A node that the cycle has to do with, as import() brings it. */
-    void
-    import_node(unsigned int node, const NodeField &u, const NodeField &v);
-    /** Displacements at the start of this cycle and of the one before; none in an interval that has
-     * not #begun. */
-    NodeField begun_at, begun_before;
-    bool      begun = false;
-    /** @param v_before,step_before As of begin_cycle(). */
-    void
-    follow_insets(const NodeField &u, const NodeField &v_before, double step_before);
-    /** By local node how it is moved inwards at the start of this cycle and of the one before, and
-     * the number of the cycle that they are of. */
-    std::vector<ImpactSurface::Inset> inset_now, inset_before;
-    std::vector<std::uint64_t>        insets_of;
-    ImpactSurface::FaceAreas          face_areas;
-    std::uint64_t                     insets_now = 2;
-    /** Take what is known of the cycle before to the ranks that have the rows now. */
-    void
-    carry_over(const std::vector<Pressed> &rows, const std::vector<PressingNode> &pressing);
-    void
-    remember(const Pressed &what);
-    std::vector<Pressed>
-    pressed_rows() const;
-    /** Of a row in the cycle before. */
-    dealii::Tensor<1, dim>
-    last_impulse(std::size_t row) const;
-    /** The key of what slides: for nodes without the face. */
-    static RowKey
-    slave_of(const RowKey &key);
-    const NodeMotion &
-    at(const std::size_t slot) const
-    {
-      return motion[candidates.at_slots.node(slot)];
-    }
-    /** Where a point of the surface, moved inwards, is at the start or end of the cycle. */
-    dealii::Point<dim>
-    inner_position(const SurfacePoint &point, const bool at_end) const
-    {
-      return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
-                          : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
-    }
-    /** The ends of an edge there, a little longer, so that edges that meet at their ends do so
-     * whatever round-off is. */
-    std::array<dealii::Point<dim>, 2>
-    inner_edge(const std::array<SurfacePoint, 2> &ends, bool at_end) const;
-    void
-    set_inner_positions(double part = inset);
     /** Which pairs of faces have nodes that may come together before they have moved by #travels:
      * sets #near_pairs, and adds their faces and nodes to those of the cycle. */
     void
     find_near();
-    void
-    add_near(unsigned int face);
-    void
-    add_near_node(std::size_t slot);
-    /** A cycle begins: of nodes with those of rows that pressed not long ago. */
-    void
-    begin_near();
-    dealii::Tensor<1, dim>
-    mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
-    std::uint64_t
-    key(const SurfacePoint &point) const;
-    SurfacePoint
-    corner(unsigned int face, unsigned int a) const
-    {
-      return {4 * std::size_t(face) + a % 4, false};
-    }
-    SurfacePoint
-    middle(unsigned int face) const
-    {
-      return {4 * std::size_t(face), true};
-    }
-    double
-    size(const SurfacePoint &point) const
-    {
-      return at(point.slot).size;
-    }
-
     /** What crosses, in the order in which rows are added. */
     enum class Kind
     {
@@ -526,42 +328,13 @@ namespace Touchstone
     /** Row::more of a row for what crosses. */
     double
     opens_more(const Row &row) const;
-    /** Rows of a node and the triangle between two corners of a face and its middle, and of points
-     * on two edges. */
-    Row
-    node_row(const SurfacePoint           &node,
-             unsigned int                  face,
-             unsigned int                  triangle,
-             const std::array<double, 3>  &weights,
-             const dealii::Tensor<1, dim> &normal) const;
-    Row
-    edge_row(const Points                 &ends,
-             const std::array<double, 2>  &at_edges,
-             const dealii::Tensor<1, dim> &normal) const;
-    /** The gap of a row at the start of the cycle, from its sides and normal. */
-    double
-    gap_at_start(const Row &row) const;
-    /** The gap of surfaces that are moved inwards at the end of the cycle that import() has
-     * brought. */
-    double
-    inner_gap_at_end(const Row &row) const;
-    /** The ends of the edge of a slot, in ascending order of their keys; and of two. */
-    std::array<SurfacePoint, 2>
-    ends_of(std::size_t edge) const;
-    Points
-    ends_of(const ContactCandidates::EdgePair &pair) const;
-    /** Roughly the direction from the material of the master to that of the slave. */
-    dealii::Tensor<1, dim>
-    outward(const Points &ends) const;
 
     /** Rows of what touches at the start. */
     void
     find_touching_nodes();
     void
     find_touching_edges();
-    bool
-    is_slave(std::size_t node, unsigned int face) const;
-    /** The same of a pair of a node and a face: it does not change. */
+    /** Whether the node of a pair of a node and a face is the slave: it does not change. */
     bool
                               is_slave(unsigned int pair) const;
     mutable std::vector<char> slave_of_pair;
@@ -570,10 +343,6 @@ namespace Touchstone
     over_face(unsigned int pair) const;
     void
     add_hit(unsigned int pair, std::vector<Hit> &hits) const;
-    /** The row of two edges where they are nearest to each other; nothing if that is beyond their
-     * ends or if they are parallel. */
-    std::optional<Row>
-    nearest_edges(const Points &ends) const;
     bool
     stand_together(const Hit &one, const Hit &other, std::size_t node) const;
 
@@ -622,18 +391,13 @@ namespace Touchstone
                unsigned int        face,
                const OpenFaces    &faces,
                Separation         &known);
-    FourPoints
-    node_and_triangle(const SurfacePoint &node,
-                      unsigned int        face,
-                      unsigned int        triangle,
-                      bool                at_end) const;
     void
     keep_out(const SurfacePoint &node,
              unsigned int        face,
              unsigned int        triangle,
              const Crossing     &crossing);
     void
-    check_edges(const Points    &ends,
+    check_edges(const TwoEdges  &ends,
                 const OpenFaces &faces,
                 Separation      &known,
                 std::size_t      pair = std::numeric_limits<std::size_t>::max());
@@ -642,10 +406,8 @@ namespace Touchstone
     /** What is known of inner edges that have not been looked at. */
     std::vector<Separation>
     separations_of_inner_edges(const ContactCandidates::FacePair &pair) const;
-    bool
-    is_warped(unsigned int face) const;
     dealii::Tensor<1, dim>
-    edge_normal(const Points                 &ends,
+    edge_normal(const TwoEdges               &ends,
                 const dealii::Tensor<1, dim> &e,
                 const dealii::Tensor<1, dim> &f,
                 const dealii::Tensor<1, dim> &closing) const;
