@@ -144,13 +144,13 @@ namespace Touchstone
                        "this boundary is also in the list 'Fixed'",
                        "name it once: a fixed boundary needs no symmetry");
     supports.push_back({body.name, name, Tensor<1, dim>()});
-    // Pairing mirrors the normals of a contact surface at nodes on symmetry planes, so
-    // the planes of each node are kept.
-    const std::size_t before = prescribed.size();
-    supported.planes[id]     = plane_normal(id, section, name);
+    supported.planes[id] = plane_normal(id, section, name);
     prescribe_on(id, supported.planes[id], nullptr, b, supports.size() - 1);
-    for (std::size_t i = before; i < prescribed.size(); ++i)
-      mirror_normals[prescribed[i].node].push_back(prescribed[i].direction);
+    // Contact surfaces average their normals with what lies beyond planes of symmetry, also at
+    // hanging nodes and those of other ranks: the planes of each node are kept.
+    for_each_node_on(id, [&](const Index node, const auto &) {
+      mirror_normals[node].push_back(supported.planes[id]);
+    });
   }
 
 
@@ -319,16 +319,12 @@ namespace Touchstone
 
 
 
-  /** Prescribe the displacement along @p direction for all locally owned nodes of a boundary.
-   * Ghost cells are visited, too, since a rank can own a node whose boundary face belongs to a
-   * cell of another rank. A hanging node follows its parents, which lie on the same boundary, and
-   * gets no condition of its own: it would be a second, dependent one. */
+  /** Visit each node of a boundary that this rank knows once, hanging ones as well, with a
+   * function that computes its position. Ghost cells are visited, too, since a rank can own
+   * a node whose boundary face belongs to a cell of another rank. */
+  template <typename Visit>
   void
-  BoundaryConditions::prescribe_on(const BoundaryIds    &boundary,
-                                   const Tensor<1, dim> &direction,
-                                   const Function       &value,
-                                   const unsigned int    body,
-                                   const unsigned int    support)
+  BoundaryConditions::for_each_node_on(const BoundaryIds &boundary, const Visit &visit) const
   {
     const auto        &fe = solid.fe;
     std::set<Index>    seen;
@@ -341,15 +337,29 @@ namespace Touchstone
               cell->get_dof_indices(dofs);
               for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
                 if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f) &&
-                    solid.owned.is_element(dofs[i]) && !solid.hanging.is_constrained(dofs[i]) &&
                     seen.insert(dofs[i]).second)
-                  prescribed.push_back(
-                    {dofs[i] / dim,
-                     direction,
-                     value,
-                     solid.mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i)),
-                     body,
-                     support});
+                  visit(dofs[i] / dim, [&] {
+                    return solid.mapping.transform_unit_to_real_cell(cell,
+                                                                     fe.unit_support_point(i));
+                  });
             }
+  }
+
+
+
+  /** Prescribe the displacement along @p direction for all locally owned nodes of a boundary. A
+   * hanging node follows its parents, which lie on the same boundary, and gets no condition of its
+   * own: it would be a second, dependent one. */
+  void
+  BoundaryConditions::prescribe_on(const BoundaryIds    &boundary,
+                                   const Tensor<1, dim> &direction,
+                                   const Function       &value,
+                                   const unsigned int    body,
+                                   const unsigned int    support)
+  {
+    for_each_node_on(boundary, [&](const Index node, const auto &position) {
+      if (solid.owned.is_element(dim * node) && !solid.hanging.is_constrained(dim * node))
+        prescribed.push_back({node, direction, value, position(), body, support});
+    });
   }
 } // namespace Touchstone
