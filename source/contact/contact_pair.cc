@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <iterator>
 
 // A contact pair: its surfaces, its pairing, and one row for each slave node (doc/theory.md 4). It
 // is the only writer of rows beside its pairing; see pair_update.cc.
@@ -161,18 +160,15 @@ namespace Touchstone
   void
   ContactPair::set_planes_of_symmetry(const Mirrors &of_nodes)
   {
-    const auto add_planes = [&](const Surface &surface, const SharedSymmetry &symmetry) {
-      for (const SurfaceNode &node : surface.owned_nodes())
+    const auto add_planes = [&](Surface &surface, const SharedSymmetry &symmetry) {
+      Mirrors shared;
+      for (const SurfaceNode &node : surface.all_nodes())
         if (const auto found = of_nodes.find(node.node); found != of_nodes.end())
-          {
-            std::vector<Tensor<1, dim>> shared;
-            std::copy_if(found->second.begin(),
-                         found->second.end(),
-                         std::back_inserter(shared),
-                         [&](const Tensor<1, dim> &plane) { return symmetry.holds(node, plane); });
-            if (!shared.empty())
-              planes[node.node] = shared;
-          }
+          for (const Tensor<1, dim> &plane : found->second)
+            if (symmetry.holds(node, plane))
+              shared[node.node].push_back(plane);
+      surface.set_planes_of_symmetry(shared);
+      planes.merge(shared);
     };
     planes.clear();
     if (!master_surface)

@@ -29,35 +29,6 @@ namespace Touchstone
     for (std::size_t k = 0; k < pair.rows().size(); ++k)
       adjusted = std::max(adjusted, -pair.overlap(k));
     adjusted = part_adjusted() * Utilities::MPI::max(adjusted, contact.communicator());
-    find_planes_of_symmetry();
-  }
-
-
-
-  void
-  MissedContact::find_planes_of_symmetry()
-  {
-    const MPI_Comm communicator = contact.communicator();
-    if (Utilities::MPI::max(pair.planes_of_symmetry().size(), communicator) == 0)
-      return;
-    // A node may lie on two, and with a third one no normal is left.
-    for (unsigned int k = 0; k < 2; ++k)
-      {
-        Vector normals(contact.solid_model().owned, communicator);
-        for (const auto &[node, planes] : pair.planes_of_symmetry())
-          if (planes.size() > k)
-            {
-              // Orthogonal to each other.
-              Tensor<1, dim> normal = planes[k];
-              if (k > 0)
-                normal -= (normal * planes[0]) * planes[0];
-              if (const double length = normal.norm(); length > Tolerances::perpendicular_cosine)
-                for (unsigned int d = 0; d < dim; ++d)
-                  normals(dim * node + d) = normal[d] / length;
-            }
-        normals.compress(VectorOperation::insert);
-        planes_of_nodes.push_back(contact.with_ghosts(normals));
-      }
   }
 
 
@@ -104,25 +75,8 @@ namespace Touchstone
   {
     Face result = face;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
-        // Averaged with the faces beyond a plane of symmetry of the pair normals lie in it, unless
-        // the body has a sharp edge there. Otherwise facets beside it would seem to have half of
-        // their arc.
-        Tensor<1, dim> normal = result.normals[m];
-        for (const Vector &planes : planes_of_nodes)
-          {
-            Tensor<1, dim> plane;
-            for (unsigned int d = 0; d < dim; ++d)
-              plane[d] = planes(dim * face.nodes[m] + d);
-            // The cosine to the normal beyond the plane.
-            if (1. - 2. * std::pow(normal * plane, 2) > Tolerances::sharp_edge_cosine)
-              normal -= (normal * plane) * plane;
-          }
-        if (const double length = normal.norm(); length > Tolerances::perpendicular_cosine)
-          result.normals[m] = normal / length;
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
     return result;
   }
 

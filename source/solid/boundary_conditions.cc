@@ -73,6 +73,34 @@ namespace Touchstone
 
 
 
+  /** Visit each node of a boundary that this rank knows once, hanging ones as well, with a
+   * function that computes its position. Ghost cells are visited, too, since a rank can own
+   * a node whose boundary face belongs to a cell of another rank. */
+  template <typename Visit>
+  void
+  BoundaryConditions::for_each_node_on(const BoundaryIds &boundary, const Visit &visit) const
+  {
+    const auto        &fe = solid.fe;
+    std::set<Index>    seen;
+    std::vector<Index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f) && boundary.count(cell->face(f)->boundary_id()) > 0)
+            {
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+                if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f) &&
+                    seen.insert(dofs[i]).second)
+                  visit(dofs[i] / dim, [&] {
+                    return solid.mapping.transform_unit_to_real_cell(cell,
+                                                                     fe.unit_support_point(i));
+                  });
+            }
+  }
+
+
+
   BoundaryConditions::BoundaryConditions(const Forest &forest, const Solid &solid)
     : solid(solid)
     , following(solid)
@@ -144,13 +172,13 @@ namespace Touchstone
                        "this boundary is also in the list 'Fixed'",
                        "name it once: a fixed boundary needs no symmetry");
     supports.push_back({body.name, name, Tensor<1, dim>()});
-    // Pairing mirrors the normals of a contact surface at nodes on symmetry planes, so
-    // the planes of each node are kept.
-    const std::size_t before = prescribed.size();
-    supported.planes[id]     = plane_normal(id, section, name);
+    supported.planes[id] = plane_normal(id, section, name);
     prescribe_on(id, supported.planes[id], nullptr, b, supports.size() - 1);
-    for (std::size_t i = before; i < prescribed.size(); ++i)
-      mirror_normals[prescribed[i].node].push_back(prescribed[i].direction);
+    // Contact surfaces average their normals with what lies beyond planes of symmetry, also at
+    // hanging nodes and those of other ranks: the planes of each node are kept.
+    for_each_node_on(id, [&](const Index node, const auto &) {
+      mirror_normals[node].push_back(supported.planes[id]);
+    });
   }
 
 
@@ -319,10 +347,9 @@ namespace Touchstone
 
 
 
-  /** Prescribe the displacement along @p direction for all locally owned nodes of a boundary.
-   * Ghost cells are visited, too, since a rank can own a node whose boundary face belongs to a
-   * cell of another rank. A hanging node follows its parents, which lie on the same boundary, and
-   * gets no condition of its own: it would be a second, dependent one. */
+  /** Prescribe the displacement along @p direction for all locally owned nodes of a boundary. A
+   * hanging node follows its parents, which lie on the same boundary, and gets no condition of its
+   * own: it would be a second, dependent one. */
   void
   BoundaryConditions::prescribe_on(const BoundaryIds    &boundary,
                                    const Tensor<1, dim> &direction,
@@ -330,26 +357,9 @@ namespace Touchstone
                                    const unsigned int    body,
                                    const unsigned int    support)
   {
-    const auto        &fe = solid.fe;
-    std::set<Index>    seen;
-    std::vector<Index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) && boundary.count(cell->face(f)->boundary_id()) > 0)
-            {
-              cell->get_dof_indices(dofs);
-              for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-                if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f) &&
-                    solid.owned.is_element(dofs[i]) && !solid.hanging.is_constrained(dofs[i]) &&
-                    seen.insert(dofs[i]).second)
-                  prescribed.push_back(
-                    {dofs[i] / dim,
-                     direction,
-                     value,
-                     solid.mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i)),
-                     body,
-                     support});
-            }
+    for_each_node_on(boundary, [&](const Index node, const auto &position) {
+      if (solid.owned.is_element(dim * node) && !solid.hanging.is_constrained(dim * node))
+        prescribed.push_back({node, direction, value, position(), body, support});
+    });
   }
 } // namespace Touchstone

@@ -38,7 +38,7 @@ namespace Touchstone
 
     /** @param inputs     Input of the pairs, in their order.
      * @param parameters How they are enforced; must live as long as this.
-     * @param mirrors    Of owned nodes, by node.
+     * @param mirrors    Normals of planes of symmetry, see BoundaryConditions::mirrors().
      * @param supports   Directions in which displacements of owned nodes are prescribed, planes of
      *                   symmetry among them, by node.
      * @throws InputError for boundaries that do not exist, and surfaces without faces. */
@@ -98,8 +98,8 @@ namespace Touchstone
       return without_rows.held[p];
     }
 
-    /** @brief Normals of the planes of 'Symmetry' that owned nodes lie on, those that are none of
-     * what the body touches among them; see ContactPair::planes_of_symmetry(). */
+    /** @brief Normals of the planes of 'Symmetry' that nodes lie on, those that are none of what
+     * the body touches among them; see ContactPair::planes_of_symmetry(). */
     const Mirrors &
     planes_of_symmetry() const
     {

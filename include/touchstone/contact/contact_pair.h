@@ -208,12 +208,14 @@ namespace Touchstone
     /** Normals of the planes of symmetry that nodes lie on. */
     using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
 
-    /** @brief Choose those planes that are planes of symmetry of the pair, see SharedSymmetry.
-     * @param of_nodes All that owned nodes lie on. Collective. */
+    /** @brief Choose those planes that are planes of symmetry of the pair, see SharedSymmetry. Its
+     * surfaces average their normals with what lies beyond.
+     * @param of_nodes All that nodes of cells of this rank and their neighbours lie on, also
+     * hanging ones. Collective. */
     void
     set_planes_of_symmetry(const Mirrors &of_nodes);
 
-    /** @brief Normals of the planes of symmetry of the pair that owned nodes of its surfaces lie
+    /** @brief Normals of the planes of symmetry of the pair that nodes of faces of this rank lie
      * on. Other planes support a body as rollers do. */
     const Mirrors &
     planes_of_symmetry() const

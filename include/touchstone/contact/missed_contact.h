@@ -75,9 +75,6 @@ namespace Touchstone
     const Vector      &forces;
     /** The largest initial overlap of a row that does not count now; length. */
     double adjusted = 0.;
-    /** Normals of the first and second plane of symmetry that nodes lie on, with ghosts; zero
-     * elsewhere. Empty without any plane. */
-    std::vector<Vector> planes_of_nodes;
 
     /** A point of one surface within the other. */
     struct Overlap
@@ -102,15 +99,12 @@ namespace Touchstone
       double           depth;
     };
 
-    void
-    find_planes_of_symmetry();
     bool
     carries_nothing(const Face &face) const;
     /** The part of an overlap in the reference state that does not count now. */
     double
     part_adjusted() const;
-    /** A face in its present position, also with small sliding, whose surfaces are not moved, with
-     * normals as if the other half of the body were there. */
+    /** A face in its present position, also with small sliding, whose surfaces are not moved. */
     Face
     present(const Face &face) const;
     /** In idle slave faces of any rank, the deepest first. Collective. */

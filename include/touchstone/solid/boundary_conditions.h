@@ -166,7 +166,8 @@ namespace Touchstone
     std::vector<PrescribedDisplacement>
     displacements(double t) const;
 
-    /** @brief Normals of the planes of symmetry that owned nodes lie on, by node. */
+    /** @brief Normals of the planes of symmetry that nodes of owned cells lie on, hanging ones as
+     * well, by node; of further nodes of ghost cells some of them. */
     const std::map<Index, std::vector<dealii::Tensor<1, dim>>> &
     mirrors() const
     {
@@ -204,7 +205,7 @@ namespace Touchstone
     const Solid            &solid;
     Formulas                formulas;
     std::vector<Prescribed> prescribed;
-    /** Of owned nodes. */
+    /** Of nodes of owned and ghost cells. */
     std::map<Index, std::vector<dealii::Tensor<1, dim>>> mirror_normals;
     std::vector<Load>                                    loads;
     std::vector<NodeSetLoad>                             set_loads;
@@ -259,6 +260,9 @@ namespace Touchstone
     add_forces_on_mass(double t, Vector &force) const;
     void
     add_tractions(double t, Vector &force) const;
+    template <typename Visit>
+    void
+    for_each_node_on(const BoundaryIds &boundary, const Visit &visit) const;
     void
     prescribe_on(const BoundaryIds            &boundary,
                  const dealii::Tensor<1, dim> &direction,

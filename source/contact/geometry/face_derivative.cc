@@ -258,7 +258,7 @@ namespace Touchstone
       double result = 0.;
       decides       = 0;
       for (unsigned int a = 0; a < 2; ++a)
-        if (!(face.outer_edges & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
+        if (!(face.ends() & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
           if (const double part = smooth_step(std::abs(xi[a]), beside_edge, 1.); part > result)
             {
               result  = part;

@@ -198,7 +198,7 @@ namespace Touchstone
           x[m][d] = face.reference[m][d] + face.displacement[m][d];
           n[m][d] = face.normals[m][d];
         }
-    const auto p = control_points(x, mirror_at_outer_edges(face.outer_edges, x, n));
+    const auto p = control_points(x, mirror_at_outer_edges(face.ends(), x, n));
     for (unsigned int k = 0; k < n_control_points; ++k)
       for (unsigned int d = 0; d < dim; ++d)
         points[k][d] = p[k][d];
@@ -220,7 +220,7 @@ namespace Touchstone
             Number(n_variables, dim * m + d, face.reference[m][d] + face.displacement[m][d]);
           n[m][d] = Number(n_variables, dim * (4 + m) + d, face.normals[m][d]);
         }
-    const auto p = control_points(x, mirror_at_outer_edges(face.outer_edges, x, n));
+    const auto p = control_points(x, mirror_at_outer_edges(face.ends(), x, n));
     Derivative result;
     for (unsigned int k = 0; k < n_control_points; ++k)
       for (unsigned int m = 0; m < 8; ++m)

@@ -257,6 +257,28 @@ namespace Touchstone
 
 
 
+  std::vector<SurfaceNode>
+  Surface::all_nodes() const
+  {
+    std::vector<SurfaceNode> result;
+    for (const NodeOfFaces &of : surface_nodes)
+      {
+        const auto &[first, m] = of.faces.front();
+        SurfaceNode node{of.node, first->reference[m]};
+        for (const auto &[face, k] : of.faces)
+          {
+            const unsigned int last = face->n_nodes() - 1, p = face->degree;
+            node.size = std::max({node.size,
+                                  face->reference[0].distance(face->reference[last]) / p,
+                                  face->reference[p].distance(face->reference[last - p]) / p});
+          }
+        result.push_back(node);
+      }
+    return result;
+  }
+
+
+
   void
   Surface::measure_faces(const MPI_Comm communicator)
   {

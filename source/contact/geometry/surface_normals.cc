@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/geometry/surface.h>
-#include <touchstone/contact/tolerances.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Present positions of the faces, their averaged normals and the derivative of these (doc/theory.md
@@ -13,13 +13,43 @@ namespace Touchstone
 
   namespace
   {
-    /** Whether two faces at a node are averaged: they do not meet in a sharp edge. */
-    bool
-    averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
+    /** Between normals of planes that are one. */
+    constexpr double same_plane_cosine = 1. - 1e-6;
+
+    /** t_1 x t_2: faces count by their area around a node. */
+    Tensor<1, dim>
+    area_vector(const std::array<Tensor<1, dim>, 2> &tangents)
     {
-      return unit_normal * own > Tolerances::sharp_edge_cosine;
+      return cross_product_3d(tangents[0], tangents[1]);
     }
   } // namespace
+
+
+
+  void
+  Surface::set_planes_of_symmetry(const std::map<Index, std::vector<Tensor<1, dim>>> &planes)
+  {
+    for (NodeOfFaces &node : surface_nodes)
+      if (const auto found = planes.find(node.node); found != planes.end())
+        node.images = MirrorImages(found->second);
+    const auto on_one = [&planes](const Edge &edge) {
+      const auto first = planes.find(edge.first), second = planes.find(edge.second);
+      if (first == planes.end() || second == planes.end())
+        return false;
+      return std::any_of(first->second.begin(), first->second.end(), [&](const auto &plane) {
+        return std::any_of(second->second.begin(), second->second.end(), [&](const auto &other) {
+          return std::abs(plane * other) > same_plane_cosine;
+        });
+      });
+    };
+    for (Face &face : faces)
+      {
+        const auto all = edges(face);
+        for (unsigned int e = 0; e < 4; ++e)
+          if (face.outer_edges & (1u << e) && on_one(all[e]))
+            face.mirrored_edges |= 1u << e;
+      }
+  }
 
 
 
@@ -67,47 +97,130 @@ namespace Touchstone
             for (unsigned int l = 0; l < face.n_nodes(); ++l)
               for (unsigned int a = 0; a < 2; ++a)
                 t[a] += at_nodes[m].gradient[l][a] * face.displacement[l];
-            // The area vector t_1 x t_2 of the face at the node: faces count by their area around
-            // it.
-            face.normals[m]     = cross_product_3d(t[0], t[1]);
+            face.normals[m]     = area_vector(t);
             const double length = face.normals[m].norm();
             face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
           }
-    // Average the area vectors around each node, once over all faces (edge_normals, the
-    // pseudonormal of an edge) and once for each face over those that it does not meet in a sharp
-    // edge (normals).
-    std::vector<Tensor<1, dim>> parts, units;
-    for (auto &[node, all, list] : surface_nodes)
+    for (NodeOfFaces &node : surface_nodes)
+      average_normals(node);
+  }
+
+
+
+  void
+  Surface::average_normals(NodeOfFaces &node)
+  {
+    // Average the area vectors around the node with their images beyond planes of symmetry, once
+    // over all faces (edge_normals, the pseudonormal of an edge) and once for each face over those
+    // that it does not meet in a sharp edge (normals).
+    const auto unit = [](const std::pair<Face *, unsigned int> &at) {
+      return at.first->own_normals[at.second];
+    };
+    parts.clear();
+    Tensor<1, dim> all;
+    bool           smooth = true;
+    for (std::size_t k = 0; k < node.faces.size(); ++k)
       {
-        parts.clear();
-        units.clear();
-        all         = Tensor<1, dim>();
-        bool smooth = true;
-        for (const auto &[face, m] : list)
+        const auto &[face, m] = node.faces[k];
+        parts.push_back(face->normals[m]);
+        all += parts.back();
+        for (std::size_t i = 0; i <= k && smooth; ++i)
+          smooth = node.images.smooth(unit(node.faces[i]), unit(node.faces[k]));
+      }
+    if (!node.images.empty())
+      all = node.images.all(all) * all;
+    if (const double length = all.norm(); length > 0.)
+      all /= length;
+    node.normal = all;
+    for (const auto &[face, m] : node.faces)
+      {
+        face->edge_normals[m] = face->normals[m] = all;
+        // Around a smooth node both averages are the same for all faces.
+        if (smooth)
+          continue;
+        Tensor<1, dim> sum;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+          sum += node.images.averaged_with(unit(node.faces[i]), face->own_normals[m]) * parts[i];
+        if (const double length = sum.norm(); length > 0.)
+          face->normals[m] = sum / length;
+      }
+  }
+
+
+
+  std::vector<NormalShare>
+  Surface::normal_shares(const Index index) const
+  {
+    const NodeOfFaces       &node = node_of_faces(index);
+    std::vector<NormalShare> result;
+    Tensor<1, dim>           sum;
+    for (const auto &[face, m] : node.faces)
+      sum += area_vector(tangents(*face, m));
+    const Tensor<2, dim> weight = node.images.all(sum);
+    for (const auto &[face, m] : node.faces)
+      result.push_back({face, m, weight});
+    return result;
+  }
+
+
+
+  std::vector<NormalShare>
+  Surface::normal_shares(const Face &face, const unsigned int m) const
+  {
+    const NodeOfFaces       &node = node_of_faces(face.nodes[m]);
+    std::vector<NormalShare> result;
+    for (const auto &[other, k] : node.faces)
+      if (const Tensor<2, dim> weight =
+            node.images.averaged_with(other->own_normals[k], face.own_normals[m]);
+          weight.norm() > 0.)
+        result.push_back({other, k, weight});
+    return result;
+  }
+
+
+
+  std::array<Tensor<1, dim>, 2>
+  Surface::tangents(const Face &face, const unsigned int m) const
+  {
+    return evaluate(face, exact_surface(face), node_coordinates(face, m)).tangents;
+  }
+
+
+
+  std::vector<std::pair<Index, Tensor<2, dim>>>
+  Surface::normal_derivative(const std::vector<NormalShare> &shares) const
+  {
+    std::vector<std::pair<Index, Tensor<2, dim>>> result;
+    Tensor<1, dim>                                sum;
+    // n = s/|s| with the sum s of the area vectors of faces and their images, each a function of
+    // all nodes of its face.
+    for (const auto &[face, m, weight] : shares)
+      {
+        const auto t = tangents(*face, m);
+        sum += weight * area_vector(t);
+        // d (t_0 x t_1), where the tangents are linear in the displacements.
+        const Tensor<2, dim> by_first  = -1. * (weight * cross_matrix(t[1])),
+                             by_second = weight * cross_matrix(t[0]);
+        const FaceShapes shapes(face->degree, node_coordinates(*face, m));
+        for (unsigned int l = 0; l < face->n_nodes(); ++l)
           {
-            parts.push_back(face->normals[m]);
-            all += parts.back();
-            for (const Tensor<1, dim> &other : units)
-              smooth = smooth && averaged_with(other, face->own_normals[m]);
-            units.push_back(face->own_normals[m]);
-          }
-        if (const double length = all.norm(); length > 0.)
-          all /= length;
-        for (std::size_t k = 0; k < list.size(); ++k)
-          {
-            const auto &[face, m] = list[k];
-            face->edge_normals[m] = face->normals[m] = all;
-            // Around a smooth node both averages are the same for all faces.
-            if (smooth)
+            const auto &gradient = shapes.gradient[l];
+            if (gradient[0] == 0. && gradient[1] == 0.)
               continue;
-            Tensor<1, dim> sum;
-            for (std::size_t i = 0; i < parts.size(); ++i)
-              if (averaged_with(units[i], units[k]))
-                sum += parts[i];
-            if (const double length = sum.norm(); length > 0.)
-              face->normals[m] = sum / length;
+            const Index node  = face->nodes[l];
+            auto        entry = std::find_if(result.begin(), result.end(), [node](const auto &e) {
+              return e.first == node;
+            });
+            if (entry == result.end())
+              entry = result.insert(entry, {node, Tensor<2, dim>()});
+            // A node of several of these faces gets one entry.
+            entry->second += gradient[0] * by_first + gradient[1] * by_second;
           }
       }
+    const Tensor<2, dim> normalised = normalisation_derivative(sum);
+    for (auto &entry : result)
+      entry.second = normalised * entry.second;
+    return result;
   }
 
 
@@ -115,47 +228,10 @@ namespace Touchstone
   std::vector<NormalDerivative>
   Surface::normal_derivative(const Face &face) const
   {
-    // Tangents at the nodes of the present state, as in move().
-    const auto tangents = [this](const Face &f, const unsigned int m) {
-      return evaluate(f, exact_surface(f), node_coordinates(f, m)).tangents;
-    };
     std::vector<NormalDerivative> result;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      {
-        const std::size_t first = result.size();
-        Tensor<1, dim>    sum;
-        // n = s/|s| with the sum s of the area vectors of the faces with which this one is
-        // averaged, each a function of all nodes of its face.
-        for (const auto &[f, k] : node_of_faces(face.nodes[m]).faces)
-          {
-            const auto           t    = tangents(*f, k);
-            const Tensor<1, dim> part = cross_product_3d(t[0], t[1]);
-            if (!averaged_with(f->own_normals[k], face.own_normals[m]))
-              continue;
-            sum += part;
-            // d (t_0 x t_1), where the tangents are linear in the displacements.
-            const Tensor<2, dim> by_first  = -1. * cross_matrix(t[1]),
-                                 by_second = cross_matrix(t[0]);
-            const FaceShapes shapes(f->degree, node_coordinates(*f, k));
-            for (unsigned int l = 0; l < f->n_nodes(); ++l)
-              {
-                const auto &gradient = shapes.gradient[l];
-                if (gradient[0] == 0. && gradient[1] == 0.)
-                  continue;
-                auto entry =
-                  std::find_if(result.begin() + first,
-                               result.end(),
-                               [&](const NormalDerivative &d) { return d.node == f->nodes[l]; });
-                if (entry == result.end())
-                  entry = result.insert(entry, {m, f->nodes[l], Tensor<2, dim>()});
-                // A node of several of these faces gets one entry.
-                entry->value += gradient[0] * by_first + gradient[1] * by_second;
-              }
-          }
-        const Tensor<2, dim> direction = normalisation_derivative(sum);
-        for (auto entry = result.begin() + first; entry != result.end(); ++entry)
-          entry->value = direction * entry->value;
-      }
+      for (const auto &[node, value] : normal_derivative(normal_shares(face, m)))
+        result.push_back({m, node, value});
     return result;
   }
 } // namespace Touchstone

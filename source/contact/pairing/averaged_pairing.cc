@@ -248,6 +248,8 @@ namespace Touchstone
           slave.normals      = now.normals;
           slave.edge_normals = now.edge_normals;
           slave.own_normals  = now.own_normals;
+          // Planes of symmetry are known only after the pairing has been made.
+          slave.mirrored_edges = now.mirrored_edges;
           for (unsigned int m = 0; m < slave.n_nodes(); ++m)
             {
               positions.push_back(slave.reference[m] + slave.displacement[m]);
@@ -260,11 +262,12 @@ namespace Touchstone
           slave_exchange->update(positions);
           for (CoveredFace &covered : slave_faces)
             {
-              const Face &complete       = *slave_exchange->face(covered.slave.key);
-              covered.slave.normals      = complete.normals;
-              covered.slave.edge_normals = complete.edge_normals;
-              covered.slave.own_normals  = complete.own_normals;
-              covered.slave.outer_edges  = complete.outer_edges;
+              const Face &complete         = *slave_exchange->face(covered.slave.key);
+              covered.slave.normals        = complete.normals;
+              covered.slave.edge_normals   = complete.edge_normals;
+              covered.slave.own_normals    = complete.own_normals;
+              covered.slave.outer_edges    = complete.outer_edges;
+              covered.slave.mirrored_edges = complete.mirrored_edges;
             }
         }
       // Faces of the search have changed or moved.

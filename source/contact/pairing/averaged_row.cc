@@ -197,12 +197,13 @@ namespace Touchstone
 
   AveragedRow::AveragedRow(const CoverSums &sums, const double size)
     : share(sums.area / sums.kept)
-    , normal(sums.normal / sums.normal.norm())
+    , normal(sums.images * sums.normal / (sums.images * sums.normal).norm())
     , area(sums.area)
     , kept(sums.kept)
     , shape_area(sums.shape_area)
     , mean(sums.gap / sums.area)
-    , normal_sum(sums.normal)
+    , normal_sum(sums.images * sums.normal)
+    , images(sums.images)
     , own_moved(sums.own_moved)
     , moved(relative_motion(sums))
     , arch(mean_arch(sums))
@@ -221,7 +222,7 @@ namespace Touchstone
                              Tensor<2, dim>            &d_gap_vector) const
   {
     // n = N/|N|.
-    d_normal = normalisation_derivative(normal_sum) * d.normal;
+    d_normal = normalisation_derivative(normal_sum) * (images * d.normal);
     // Derivatives of the mean gap vector G/D, of the correction, and of the share D/D_kk by which
     // both are multiplied.
     const Tensor<2, dim> d_mean  = (d.gap - outer_product(mean, d.area)) / area;

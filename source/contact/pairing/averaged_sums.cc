@@ -227,8 +227,14 @@ namespace Touchstone
   void
   AveragedSums::finish()
   {
-    for (RowSums &sum : sums)
-      sum.finish();
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      {
+        sums[k].finish();
+        // Beyond planes of symmetry the integrals go on.
+        const MirrorImages &images = slave_surface.images(slave_surface.owned_nodes()[k].node);
+        if (!images.empty())
+          sums[k].images = images.all(sums[k].normal);
+      }
   }
 
 

@@ -221,7 +221,7 @@ namespace Touchstone
       if (of_patch)
         for (const NormalDerivative &d : *of_patch)
           move(d.node, -1. * (master.x_normal[d.m] * d.value));
-      for (const auto &[node, turn] : Touchstone::differentiate(*input.slave, one.direction))
+      for (const auto &[node, turn] : input.slave->normal_derivative(one.direction.shares))
         {
           const std::size_t i = move(node, l * turn);
           result.gap_vector[i] -= l * turn;

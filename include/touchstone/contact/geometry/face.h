@@ -38,6 +38,9 @@ namespace Touchstone
     /** Bit 0: the edge xi_1 = -1 is an edge of the whole surface, bit 1:
      * xi_1 = 1, bit 2: xi_2 = -1, bit 3: xi_2 = 1. */
     unsigned int outer_edges = 0;
+    /** Those of them, in the same bits, beyond which the other half of the body goes on: they lie
+     * on planes of symmetry, see Surface::set_planes_of_symmetry(). */
+    unsigned int mirrored_edges = 0;
 
     std::array<Index, max_nodes> nodes{};
     /** Nodes that leave their part of the face to the others, for no row is theirs: those of
@@ -55,6 +58,13 @@ namespace Touchstone
     n_nodes() const
     {
       return (degree + 1) * (degree + 1);
+    }
+
+    /** @brief The edges, in the bits of outer_edges, where the surface of the whole body ends. */
+    unsigned int
+    ends() const
+    {
+      return outer_edges & ~mirrored_edges;
     }
 
     /** @brief Present position of the node @p m. */

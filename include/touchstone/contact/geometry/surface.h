@@ -5,6 +5,7 @@
 
 #include <touchstone/algebra/stencil.h>
 #include <touchstone/contact/geometry/face_derivative.h>
+#include <touchstone/contact/geometry/mirror_images.h>
 #include <touchstone/contact/geometry/trace_basis.h>
 #include <touchstone/solid/solid.h>
 
@@ -23,6 +24,15 @@ namespace Touchstone
     double area = 0.;
     /** Length of the adjacent faces (square root of the largest area). */
     double size = 0.;
+  };
+
+  /** @brief The area vector of a face at a node with the weight by which it and its images count in
+   * a nodal normal. */
+  struct NormalShare
+  {
+    const Face            *face;
+    unsigned int           m;
+    dealii::Tensor<2, dim> weight;
   };
 
   /**
@@ -46,6 +56,17 @@ namespace Touchstone
             unsigned int                                body,
             const std::set<dealii::types::boundary_id> &boundaries,
             bool                                        exact);
+
+    /** @brief From now on nodal normals are those of the body with its other halves.
+     * @param planes Unit normals of the planes of symmetry that nodes of faces of this rank lie on,
+     * by node. Edges of faces on them are no ends of the surface for smoothing. */
+    void
+    set_planes_of_symmetry(const std::map<Index, std::vector<dealii::Tensor<1, dim>>> &planes);
+
+    /** @brief The nodes of all faces of this rank, hanging ones and those of others as well,
+     * without areas. The size is that of the largest face around, by its diagonals. */
+    std::vector<SurfaceNode>
+    all_nodes() const;
 
     /** @brief Move the surface to the displacement @p u (with ghosts) and average
      * its normals. */
@@ -136,6 +157,27 @@ namespace Touchstone
     std::vector<NormalDerivative>
     normal_derivative(const Face &face) const;
 
+    /** @brief What lies beyond the planes of symmetry that an owned node is on. */
+    const MirrorImages &
+    images(Index node) const
+    {
+      return node_of_faces(node).images;
+    }
+
+    /** @brief Of which area vectors the averaged normal at an owned node is the mean. */
+    std::vector<NormalShare>
+    normal_shares(Index node) const;
+
+    /** @brief The same of the averaged normal of an owned face at its node @p m, which leaves out
+     * faces beyond sharp edges. */
+    std::vector<NormalShare>
+    normal_shares(const Face &face, unsigned int m) const;
+
+    /** @brief How such a mean changes with the positions of nodes, in the present position: d n /
+     * d x_a, per length, for each node a of its faces, once. */
+    std::vector<std::pair<Index, dealii::Tensor<2, dim>>>
+    normal_derivative(const std::vector<NormalShare> &shares) const;
+
     /** @brief The boundaries that it is made of. */
     const std::set<dealii::types::boundary_id> &
     boundaries() const
@@ -181,9 +223,13 @@ namespace Touchstone
       /** Faces around it, with its local index there, in the order in which their normals
        * are summed. */
       std::vector<std::pair<Face *, unsigned int>> faces;
+      /** What is averaged with these beyond planes of symmetry. */
+      MirrorImages images = {};
     };
     /** In ascending order of the nodes. */
     std::vector<NodeOfFaces> surface_nodes;
+    /** Of one node, for average_normals(). */
+    std::vector<dealii::Tensor<1, dim>> parts;
 
     /** Faces around a node, each with the local index of the node there. */
     using CornersOfFaces = std::vector<std::pair<const Face *, unsigned int>>;
@@ -202,6 +248,12 @@ namespace Touchstone
     /** @throws ExcInternalError if no face of this rank has the node. */
     const NodeOfFaces &
     node_of_faces(Index node) const;
+    /** Tangents of a face at a node in the present position. */
+    std::array<dealii::Tensor<1, dim>, 2>
+    tangents(const Face &face, unsigned int m) const;
+    /** @param node Its faces have their area vectors as normals, which are replaced. */
+    void
+    average_normals(NodeOfFaces &node);
     static std::array<Edge, 4>
     edges(const Face &face);
     /** Faces of owned and ghost cells with their TraceBasis. */

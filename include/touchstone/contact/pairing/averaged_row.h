@@ -5,6 +5,7 @@
 
 #include <touchstone/base/types.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <cstdint>
@@ -53,6 +54,9 @@ namespace Touchstone
     double shared = 0.;
     /** Integrals of gap and normal with psi'_k. */
     dealii::Tensor<1, dim> gap, normal;
+    /** MirrorImages::all() of the normal, where the node lies on planes of symmetry: beyond these
+     * the integral goes on. */
+    dealii::Tensor<2, dim> images = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
     /** The integral of the displacement of the slave relative to the master with psi'_k, area times
      * length, and this displacement at the node, length. */
     dealii::Tensor<1, dim> moved, own_moved;
@@ -121,7 +125,8 @@ namespace Touchstone
    * @brief Normal and gap of an averaged row, from the sums over its slave faces, and their
    * derivatives (doc/theory.md 3.1).
    *
-   * With the integrals D of psi'_k, G of the gap and N of the normal, and the kept area D_kk:
+   * With the integrals D of psi'_k, G of the gap and N of the normal, that with its images beyond
+   * planes of symmetry, and the kept area D_kk:
    *
    *   n = N / |N| ,   gap vector = D/D_kk (G/D + c n) ,
    *
@@ -185,6 +190,7 @@ namespace Touchstone
   private:
     double                 area, kept, shape_area;
     dealii::Tensor<1, dim> mean, normal_sum;
+    dealii::Tensor<2, dim> images;
     /** Displacement at the node, the same less the mean, and the mean arch; length. */
     dealii::Tensor<1, dim> own_moved, moved;
     double                 arch;

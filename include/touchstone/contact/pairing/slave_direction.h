@@ -5,7 +5,6 @@
 
 #include <touchstone/contact/geometry/surface.h>
 
-#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -16,8 +15,8 @@ namespace Touchstone
   {
     /** Unit outward normal of the slave surface. */
     dealii::Tensor<1, dim> n;
-    /** The faces, each with the local number of the node there. */
-    std::vector<std::pair<const Face *, unsigned int>> faces;
+    /** Of these, for Surface::normal_derivative(). */
+    std::vector<NormalShare> shares;
   };
 
   /**
@@ -28,11 +27,6 @@ namespace Touchstone
    */
   std::vector<SlaveDirection>
   slave_directions(const Surface &surface, Index node);
-
-  /** @brief How a direction changes with the positions of nodes: d n / d x_a, per length, for each
-   * node a of its faces, once. */
-  std::vector<std::pair<Index, dealii::Tensor<2, dim>>>
-  differentiate(const Surface &surface, const SlaveDirection &direction);
 } // namespace Touchstone
 
 #endif
