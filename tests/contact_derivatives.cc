@@ -65,6 +65,26 @@ namespace
     slave_and_master("ring", "first cut, second cut", "ring", "first cut, second cut") +
     "\nset Pairing = pointwise\nend\n";
 
+  // Quarters of two coarse caps, as in checks/quarter_of_caps.prm.
+  const std::string cap = "set Type           = cap\n"
+                          "set Apex           = 0, 0, 0\n"
+                          "set Part           = quarter\n"
+                          "set Width          = 1.5\n"
+                          "set Height         = 1.5\n"
+                          "set Contact width  = 0.8\n"
+                          "set Outer cells    = 1\n"
+                          "set Contact layers = 1\n"
+                          "set Outer layers   = 1\n";
+  const std::string quarter =
+    two_bodies("lower",
+               cap + "set Radius = 4\nset Contact side = top\nset Contact cells = 3",
+               "upper",
+               cap + "set Radius = 3\nset Contact side = bottom\nset Contact cells = 2",
+               slave_and_master("upper", "contact", "lower", "contact"));
+  const std::vector<std::string> symmetric{"Body lower/Symmetry=x cut, y cut",
+                                           "Body upper/Symmetry=x cut, y cut",
+                                           "Contact pair pair/Contact geometry=faceted"};
+
   const std::string obstacle = R"(
 set Bodies        = upper
 set Obstacles     = rigid
@@ -296,6 +316,15 @@ main(int argc, char **argv)
         0.03);
   for (const std::string kind : {"face", "averaged", "smoothed"})
     check("slit, " + kind, slit, {set("Master normal", kind)}, 0.);
+  // Normals on planes of symmetry are those of the whole body.
+  for (const std::string pairing : {"pointwise", "averaged", "inside-outside"})
+    for (const std::string kind : {"averaged", "smoothed"})
+      {
+        std::vector<std::string> overrides = symmetric;
+        overrides.push_back(set("Pairing", pairing));
+        overrides.push_back(set("Master normal", kind));
+        check("planes of symmetry, " + pairing + ", " + kind, quarter, overrides, -0.05, 0.005);
+      }
   // The direction is that of the slave, on its sharp edges that of one side.
   const std::string inside_outside = set("Pairing", "inside-outside");
   check("inside-outside, warped faces", blocks, {inside_outside}, -0.01);

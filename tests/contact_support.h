@@ -6,6 +6,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/scene/scene.h>
+#include <touchstone/solid/boundary_conditions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -84,6 +85,7 @@ namespace Touchstone
       , pairing(&pair.pairing())
       , rows(pair.rows())
     {
+      pair.set_planes_of_symmetry(BoundaryConditions(forest, solid).mirrors());
     }
 
     /** A displacement given by a formula of the reference position and the body. */

@@ -33,6 +33,30 @@ main()
                 "Newton/Gap tolerance=1e-6",
                 "Body lower/Material/Density=1",
                 "Body upper/Material/Density=1"});
+  try_override("keys of another enforcement",
+               {"Contact/Penalty factor=3",
+                "Contact/Tangential factor=2",
+                "Contact/Augmentation=outer",
+                "Contact/Contact iterations=5",
+                "Contact pair between/Overlap end time=3"});
+  try_override("keys of this enforcement",
+               {"Contact/Enforcement=augmented lagrange",
+                "Contact/Penalty factor=3",
+                "Contact/Friction=regularised",
+                "Contact/Tangential factor=2",
+                "Contact/Augmentation=outer"});
+  try_override("keys of another enforcement of explicit dynamics",
+               {"Time integration/Scheme=central_differences",
+                "Contact/Enforcement=soft penalty",
+                "Contact/Penalty factor=3",
+                "Contact/Contact tolerance=1e-6",
+                "Contact/Linearisation=frozen",
+                "Body lower/Material/Density=1",
+                "Body upper/Material/Density=1"});
+  try_override("keys of other schemes",
+               {"Time integration/HHT alpha=0.1",
+                "Time integration/Spectral radius=0.5",
+                "Time integration/Mass=lumped"});
   try_override("pairs that are no longer listed",
                {"Contact pairs=", "Contact/Enforcement=penalty"});
   const std::string steps = "Load stepping/", two = steps + "Phases=clamp, pull",

@@ -8,13 +8,14 @@
 #include <touchstone/scene/scene_text.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 /**
  * @file
- * Sections without effect. A scene that is varied by --set has some: friction is switched off, or
- * the scheme of time integration is changed. The run goes on, but the user is told, because a
- * section that was meant to act and does not gives a result that looks right.
+ * Sections and keys without effect. A scene that is varied by --set has some: friction is switched
+ * off, or the scheme of time integration is changed. The run goes on, but the user is told, because
+ * one that was meant to act and does not gives a result that looks right.
  */
 
 namespace Touchstone
@@ -40,16 +41,16 @@ namespace Touchstone
       return keys;
     }
 
-    /** Sections of @p complete with a value that is not that of @p defaults. A complete scene that
+    /** Entries of @p complete with a value that is not that of @p defaults. A complete scene that
      * the program has printed sets all keys, most of them to their defaults. */
-    std::vector<std::string>
-    changed_sections(const std::string &defaults, const std::string &complete)
+    std::vector<SceneEntry>
+    changed_entries(const std::string &defaults, const std::string &complete)
     {
-      const SceneText          before(defaults, "defaults"), after(complete, "scene");
-      std::vector<std::string> changed;
+      const SceneText         before(defaults, "defaults"), after(complete, "scene");
+      std::vector<SceneEntry> changed;
       for (const SceneEntry &entry : after.entries())
         if (entry.value != before.value(entry.section, entry.key, ""))
-          changed.push_back(entry.section);
+          changed.push_back(entry);
       return changed;
     }
   } // namespace
@@ -88,20 +89,25 @@ namespace Touchstone
 
 
   std::vector<std::string>
-  idle_sections(const Scene &scene, const std::string &defaults, const std::string &complete)
+  idle_entries(const Scene &scene, const std::string &defaults, const std::string &complete)
   {
-    const std::vector<std::string> changed = changed_sections(defaults, complete);
-    std::vector<std::string>       sentences;
-    const auto add = [&](const bool idle, const std::string &section, const std::string &reason) {
-      if (idle && std::find(changed.begin(), changed.end(), section) != changed.end())
-        sentences.push_back("section '" + section + "' has no effect: " + reason);
-    };
-    add(!scene.has_contact(), "Contact", "there are no contact pairs");
-    const std::string explicit_scheme = "explicit dynamics solves no systems of equations";
-    add(scene.time_integration.runs_in_cycles(), "Newton", explicit_scheme);
-    add(scene.time_integration.runs_in_cycles(), "Linear solver", explicit_scheme);
-    add(!scene.refinement.active(), "Refinement", "its 'Estimator' is 'none'");
-    add(scene.reference.type.name == "none", "Reference solution", "its 'Type' is 'none'");
+    const std::vector<SceneEntry> changed = changed_entries(defaults, complete);
+    std::vector<std::string>      sentences;
+    std::set<std::string>         idle_sections;
+    for (const IdleRule &rule : idle_rules(scene))
+      {
+        if (!rule.idle || idle_sections.count(rule.section) > 0 ||
+            std::none_of(changed.begin(), changed.end(), [&rule](const SceneEntry &entry) {
+              return entry.section == rule.section && (rule.key.empty() || entry.key == rule.key);
+            }))
+          continue;
+        // Its keys need no sentences of their own.
+        if (rule.key.empty())
+          idle_sections.insert(rule.section);
+        sentences.push_back(
+          (rule.key.empty() ? "section '" : "key '" + rule.key + "' of section '") + rule.section +
+          "' has no effect: " + rule.reason);
+      }
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (std::none_of(scene.pairs.begin(), scene.pairs.end(), [&](const auto &pair) {
             return pair.obstacle == obstacle.name;

@@ -92,9 +92,10 @@ namespace Touchstone
     without_effect             = take_idle_friction(*this, text);
     const std::string defaults = complete_entries();
     set_entries(text, prm);
-    const std::vector<std::string> idle = idle_sections(*this, defaults, complete_entries());
-    without_effect.insert(without_effect.end(), idle.begin(), idle.end());
+    const std::string complete = complete_entries();
     resolve(text, file_name);
+    const std::vector<std::string> idle = idle_entries(*this, defaults, complete);
+    without_effect.insert(without_effect.end(), idle.begin(), idle.end());
     check();
   }
 

@@ -22,12 +22,27 @@ namespace Touchstone
   std::vector<std::string>
   take_idle_friction(const Scene &scene, SceneText &text);
 
+  /** @brief A section, or one of its keys, that has no effect if @p idle. */
+  struct IdleRule
+  {
+    bool        idle;
+    std::string section;
+    /** Empty: the whole section. */
+    std::string key;
+    std::string reason;
+  };
+
+  /** @brief The rules of all sections but 'Friction'. @param scene Its entries are set. */
+  std::vector<IdleRule>
+  idle_rules(const Scene &scene);
+
   /**
-   * @brief A sentence on each other section that is changed but has no effect.
+   * @brief A sentence on each other section, and each key of another section, that is changed but
+   * has no effect.
    * @param defaults, complete The short listing of the scene before and after its entries were set.
    */
   std::vector<std::string>
-  idle_sections(const Scene &scene, const std::string &defaults, const std::string &complete);
+  idle_entries(const Scene &scene, const std::string &defaults, const std::string &complete);
 } // namespace Touchstone
 
 #endif

@@ -22,6 +22,12 @@ namespace Touchstone
       {
       }
 
+      std::vector<std::string>
+      keys() const override
+      {
+        return {"Penalty factor", "Augmentation"};
+      }
+
       const ImpulseRule *
       impulse_rule() const override
       {

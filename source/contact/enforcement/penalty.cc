@@ -21,6 +21,12 @@ namespace Touchstone
       {
       }
 
+      std::vector<std::string>
+      keys() const override
+      {
+        return {"Penalty factor", "Tangential factor"};
+      }
+
       const ImpulseRule *
       impulse_rule() const override
       {

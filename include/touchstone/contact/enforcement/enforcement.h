@@ -106,6 +106,14 @@ namespace Touchstone
       return false;
     }
 
+    /** @brief Keys of section 'Contact' that not all enforcements act on in implicit steps, and
+     * this one does. Of explicit steps: ImpulseRule::keys(). */
+    virtual std::vector<std::string>
+    keys() const
+    {
+      return {};
+    }
+
     /** @name The kinds of steps that it serves: one of them, or both */
     /** @{ */
     /** @brief Whether it serves implicit steps, in which linear systems are solved. */

@@ -3,6 +3,9 @@
 #ifndef touchstone_contact_enforcement_impulse_rule_h
 #define touchstone_contact_enforcement_impulse_rule_h
 
+#include <string>
+#include <vector>
+
 namespace Touchstone
 {
   /**
@@ -34,6 +37,20 @@ namespace Touchstone
     springs() const
     {
       return method == Method::bulk_springs || method == Method::mass_springs;
+    }
+
+    /** @brief Keys of section 'Contact' that it acts on and others do not. */
+    std::vector<std::string>
+    keys() const
+    {
+      if (springs())
+        return {"Penalty factor", "Tangential factor"};
+      if (method == Method::one_sweep)
+        return {};
+      std::vector<std::string> result{"Contact tolerance", "Contact iterations"};
+      if (method == Method::augmentation)
+        result.push_back("Penalty factor");
+      return result;
     }
   };
 } // namespace Touchstone
