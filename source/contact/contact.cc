@@ -152,10 +152,7 @@ namespace Touchstone
   void
   Contact::leave_rows(const Vector &u)
   {
-    RowsByPair rows;
-    for (const auto &pair : pairs)
-      rows.push_back(pair->rows());
-    without_rows = without_rows_finder->find(rows);
+    without_rows = without_rows_finder->find(rows_by_pair());
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (const std::set<Index> nodes = without_rows.of_pair(p); !nodes.empty())
         {

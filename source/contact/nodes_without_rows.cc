@@ -81,14 +81,26 @@ namespace Touchstone
 
 
   RowsByPair
-  Contact::rows_of_all_nodes(const Vector &u)
+  Contact::rows_by_pair() const
   {
     RowsByPair result;
+    for (const auto &pair : pairs)
+      result.push_back(pair->rows());
+    return result;
+  }
+
+
+
+  RowsByPair
+  Contact::rows_of_all_nodes(const Vector &u)
+  {
     // Rows that were found with other decisions, at joints, would decide about themselves; without
     // joints only normals and gaps are asked for.
-    const bool anew = without_rows_finder->pairs_meet() || !without_rows.empty();
+    if (!without_rows_finder->pairs_meet() && without_rows.empty())
+      return rows_by_pair();
+    RowsByPair result;
     for (const auto &pair : pairs)
-      result.push_back(anew ? pair->rows_of_all_nodes(u) : pair->rows());
+      result.push_back(pair->rows_of_all_nodes(u));
     return result;
   }
 
@@ -115,9 +127,6 @@ namespace Touchstone
   {
     if (pairs.empty())
       return false;
-    RowsByPair rows;
-    for (const auto &pair : pairs)
-      rows.push_back(pair->rows());
     const auto with = [this](const NodesWithoutRows &found) {
       NodesWithoutRows all = without_rows;
       all.add(found);
@@ -125,7 +134,7 @@ namespace Touchstone
     };
     // Rows as they are tell where to look; those of all nodes decide, as at the beginning of a
     // step.
-    if (with(without_rows_finder->find(rows)) == without_rows)
+    if (with(without_rows_finder->find(rows_by_pair())) == without_rows)
       return false;
     NodesWithoutRows all = with(without_rows_finder->find(rows_of_all_nodes(u)));
     if (all == without_rows)

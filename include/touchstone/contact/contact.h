@@ -350,6 +350,10 @@ namespace Touchstone
     void
     leave_rows(const Vector &u);
 
+    /** The present rows of all pairs. */
+    RowsByPair
+    rows_by_pair() const;
+
     /** Rows of all pairs in the displacement of #ghosted, as if no node left its row to others.
      * @param u The same displacement, owned dofs. Collective. */
     RowsByPair

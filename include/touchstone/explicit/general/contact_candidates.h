@@ -9,10 +9,12 @@
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/row_nodes.h>
 
+#include <algorithm>
 #include <bitset>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -168,6 +170,19 @@ namespace Touchstone
     ContactPartition            partition;
     CandidateCounts             work;
     double                      farthest = 0.;
+
+    /** Key of the node of a slot of @p all, and those of the ends of its edge, in ascending order.
+     */
+    static std::uint64_t
+    slot_key(const std::vector<MovingFace> &all, const std::size_t slot)
+    {
+      return all[slot / 4].face.nodes[slot % 4];
+    }
+    static std::pair<std::uint64_t, std::uint64_t>
+    edge_key(const std::vector<MovingFace> &all, const std::size_t slot)
+    {
+      return std::minmax({slot_key(all, slot), slot_key(all, next(slot))});
+    }
 
     std::vector<MovingFace>
     exchange_faces(const NodeField &u, const NodeField &v, double step, double margin);

@@ -358,7 +358,7 @@ namespace Touchstone
     /** The motion that is checked is that of free velocities. */
     bool looks_ahead = false;
 
-    /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
+    /** Check the motion through the cycle that #moving knows: #new_rows is the same on all
      * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
      * touch. @param in_order Rows of a kind come only where no earlier kind brings new ones.
      * @return rows if some have been added or changed, on any rank. Collective. */
