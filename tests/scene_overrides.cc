@@ -38,13 +38,15 @@ main()
                 "Contact/Tangential factor=2",
                 "Contact/Augmentation=outer",
                 "Contact/Contact iterations=5",
-                "Contact pair between/Overlap end time=3"});
+                "Contact pair below/Edge tolerance=0.1"});
   try_override("keys of this enforcement",
                {"Contact/Enforcement=augmented lagrange",
                 "Contact/Penalty factor=3",
                 "Contact/Friction=regularised",
                 "Contact/Tangential factor=2",
-                "Contact/Augmentation=outer"});
+                "Contact/Augmentation=outer",
+                "Contact pair between/Behaviour=coulomb",
+                "Contact pair between/Friction/Coefficient=0.3"});
   try_override("keys of another enforcement of explicit dynamics",
                {"Time integration/Scheme=central_differences",
                 "Contact/Enforcement=soft penalty",

@@ -115,6 +115,7 @@ namespace Touchstone
     const double scale = std::max(present, small_force * largest_force_scale);
     state.force        = std::sqrt(left);
     state.residual     = scale > 0. ? state.force / scale : 0.;
+    relative_residual  = state.residual;
     state.round_off    = scale > 0. ? round_off / scale : 0.;
     // A large round-off is plausible only before the first forces act. Later on it must not hide a
     // residual, so that the allowance is bounded.
@@ -152,7 +153,13 @@ namespace Touchstone
         solid.assemble(u, system->linear_solver().symmetric_only());
         ++assemblies;
       }
-    system->assemble({time, u, applied, unbalanced, forcing_term.tolerance(), forcing_term.slow()});
+    system->assemble({time,
+                      u,
+                      applied,
+                      unbalanced,
+                      relative_residual,
+                      forcing_term.tolerance(),
+                      forcing_term.slow()});
   }
 
 

@@ -278,8 +278,9 @@ namespace Touchstone
     // about the smallest open gap, so that the body does not pass through the surface that will
     // hold it. In contact the body can still slide: there the shift must outweigh the geometric
     // stiffness of the contact forces, relative to the stiffness about pressure over Young's
-    // modulus, which the tangent lacks; otherwise the iterates would oscillate about the
-    // equilibrium.
+    // modulus, where the tangent lacks it; otherwise the iterates would oscillate about the
+    // equilibrium. A consistent tangent has it: the shift vanishes with the residual, slowly enough
+    // for motions that nothing resists, whose residual is of second order.
     double        distance = std::numeric_limits<double>::max();
     double        size     = 0.;
     std::uint64_t active   = 0;
@@ -302,10 +303,14 @@ namespace Touchstone
     // No row has a partner yet.
     if (size == 0.)
       size = length;
-    distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
-    system->diagonal_shift =
-      modes.stabilisation(motion, state.unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
-    free_motions = motion.description;
+    distance                        = active > 0 ? (consistent(state) ? 1e-2 : 1e-3) * size
+                                                 : std::clamp(1.01 * distance, 1e-3 * size, size);
+    constexpr double before_contact = 1e-7, in_contact = 1e-3;
+    double           smallest = active > 0 ? in_contact : before_contact;
+    if (active > 0 && consistent(state))
+      smallest = std::clamp(in_contact * std::sqrt(state.residual), before_contact, in_contact);
+    system->diagonal_shift = modes.stabilisation(motion, state.unbalanced, distance, smallest);
+    free_motions           = motion.description;
     loose.insert(motion.bodies.begin(), motion.bodies.end());
   }
 

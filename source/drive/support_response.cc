@@ -34,8 +34,13 @@ namespace Touchstone
     system->prescribe(time, behind);
     // Newton's iterations would mend a solution that is less accurate, but here there is one: with
     // 1e-4 the estimate depended on the number of ranks by 1e-3.
-    system->assemble(
-      {time, u, applied, unbalanced, scene.linear_solver.tolerance, forcing_term.slow()});
+    system->assemble({time,
+                      u,
+                      applied,
+                      unbalanced,
+                      relative_residual,
+                      scene.linear_solver.tolerance,
+                      forcing_term.slow()});
     Vector response(solid.zero_vector());
     system->solve(response);
     // As residual() has left them.

@@ -96,12 +96,7 @@ namespace Touchstone
     void
     add_pair(const ContactPairParameters &pair, Rules &rules)
     {
-      using Overlap             = ContactPairParameters::Overlap;
       const std::string section = pair.section();
-      rules.push_back({pair.initial_overlap != Overlap::ramp,
-                       section,
-                       "Overlap end time",
-                       "'Initial overlap' is '" + pair.initial_overlap.word() + "'"});
       for (const char *const key : {"Pairing",
                                     "Sliding",
                                     "Contact geometry",

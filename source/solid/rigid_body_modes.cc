@@ -32,7 +32,7 @@ namespace Touchstone
       return k < dim ? e : cross_product_3d(e, x);
     }
 
-    /** Whether the eigenvalues of a symmetric 6 x 6 matrix are all larger than
+    /** Whether the eigenvalues of a positive semidefinite 6 x 6 matrix are all larger than
      * @p threshold. */
     bool
     positive_definite(const double *entries, const double threshold)
@@ -41,11 +41,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < 6; ++i)
         for (unsigned int j = 0; j < 6; ++j)
           matrix(i, j) = entries[6 * i + j];
-      dealii::Vector<double> eigenvalues;
-      FullMatrix<double>     eigenvectors;
-      matrix.compute_eigenvalues_symmetric(
-        -threshold, threshold, 1e-3 * threshold, eigenvalues, eigenvectors);
-      return eigenvalues.size() == 0;
+      matrix.compute_svd();
+      return matrix.singular_value(5) > threshold;
     }
 
     double
@@ -180,10 +177,22 @@ namespace Touchstone
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             matrix(i, j) = gram[i * n + j];
-        dealii::Vector<double> eigenvalues;
-        matrix.compute_eigenvalues_symmetric(
-          -largest, 1e-8 * largest, 1e-12 * largest, eigenvalues, result.basis);
-        result.n_modes = eigenvalues.size();
+        // Singular values are eigenvalues here. Eigenvectors of a cluster of zeros by inverse
+        // iteration, as LAPACK's syevx has them, need not converge.
+        matrix.compute_svd();
+        const auto is_free = [&](const unsigned int k) {
+          return matrix.singular_value(k) <= 1e-8 * largest;
+        };
+        // In descending order.
+        unsigned int first = n;
+        while (first > 0 && is_free(first - 1))
+          --first;
+        result.n_modes = n - first;
+        result.basis.reinit(n, result.n_modes);
+        const LAPACKFullMatrix<double> &vectors = matrix.get_svd_u();
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int v = 0; v < result.n_modes; ++v)
+            result.basis(i, v) = vectors(i, first + v);
       }
     if (result.n_modes > 0)
       describe(result);
@@ -254,7 +263,7 @@ namespace Touchstone
     };
 
     // The shift alpha diag(K) is to limit the free motion under the unbalanced forces f to about
-    // @p distance: along a free mode r, alpha = |r.f| / (r.diag(K) r distance), with the
+    // @p distance: with the free modes R, alpha = |(R' diag(K) R)^-1 R' f| / distance, with the
     // resistance estimated from the mean diagonal of each body.
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
     const unsigned int  n = 6 * solid.bodies.size();
@@ -281,17 +290,20 @@ namespace Touchstone
     Utilities::MPI::sum(sums, solid.communicator, sums);
     largest = Utilities::MPI::max(largest, solid.communicator);
 
-    double fraction = smallest;
-    for (unsigned int v = 0; v < motion.n_modes; ++v)
-      {
-        double work = 0., resistance = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            work += motion.basis(i, v) * sums[i];
-            resistance += motion.basis(i, v) * motion.basis(i, v) * sums[n + i / 6];
-          }
-        fraction = std::max(fraction, std::abs(work) / (resistance * distance));
-      }
+    // The motion under these forces, of all modes together: which basis of the free motions is
+    // found is round-off.
+    dealii::Vector<double> work(motion.n_modes), moved(motion.n_modes);
+    FullMatrix<double>     resistance(motion.n_modes, motion.n_modes);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int v = 0; v < motion.n_modes; ++v)
+        {
+          work(v) += motion.basis(i, v) * sums[i];
+          for (unsigned int w = 0; w < motion.n_modes; ++w)
+            resistance(v, w) += motion.basis(i, v) * motion.basis(i, w) * sums[n + i / 6];
+        }
+    resistance.gauss_jordan();
+    resistance.vmult(moved, work);
+    const double fraction = std::max(smallest, moved.l2_norm() / distance);
     // Only what takes part in the motion is held back: a body that can only turn is still free to
     // be displaced by the bodies that press it.
     for (unsigned int row = 0; row < rigid->body.size(); ++row)

@@ -43,6 +43,16 @@ for enforcement in EXACT_ENFORCEMENTS:
         below(f"forced slip {size}, {enforcement}, force {force} differs from {answer}",
               relative(force, answer), 1e-3 if size > 2e-7 else 1e-6)
 
+# A block that one slave node and its friction hold: the shift that keeps the first increments finite vanishes with
+# the residual, or Newton's method would converge by a constant factor.
+answer = None
+for enforcement in EXACT_ENFORCEMENTS:
+    rocking = run(f"rocking_{enforcement}", checks / "rocking_block.prm", {ENFORCEMENT: enforcement})
+    force = rocking.force("contact")
+    answer = force if answer is None else answer
+    below(f"{rocking}, force {force} differs from {answer}", relative(math.hypot(*force), math.hypot(*answer)), 1e-6)
+    check(rocking.iterations() <= 15, f"{rocking}: {rocking.iterations()} iterations")
+
 # Planes of symmetry that the master does not have are rollers: friction acts across them as where a displacement is
 # prescribed. The normal of the table is exact.
 rollers = checks / "friction_rollers.prm"

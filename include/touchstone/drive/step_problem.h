@@ -151,6 +151,8 @@ namespace Touchstone
     /** Scale of the forces that act, at present and the largest of all committed states; zero
      * where the forces are no more than round-off. */
     double force_scale = 0., largest_force_scale = 0.;
+    /** NewtonState::residual of the present state. */
+    double relative_residual = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
     double      diameter = 0., missed = 0.;

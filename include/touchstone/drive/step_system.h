@@ -49,6 +49,8 @@ namespace Touchstone
       /** Forces on the nodes: all but those of contact as the time integration weighs them, and
        * their sum with contact, before reactions. */
       const Vector &applied, &unbalanced;
+      /** Out-of-balance force relative to the forces that act, NewtonState::residual. */
+      double residual;
       /** Relative residual to which the system is to be solved. */
       double tolerance;
       /** Frozen iterations of this step have gained too little (ForcingTerm::slow()). */
