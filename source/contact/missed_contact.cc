@@ -195,10 +195,7 @@ namespace Touchstone
     for (const Overlap &overlap : overlaps())
       // An obstacle behind a face is no overlap of the surface.
       if (overlap.point.n > 0)
-        {
-          result.push_back(overlap.point);
-          result.back().depth = overlap.place.depth;
-        }
+        result.push_back(overlap.point);
     return result;
   }
 } // namespace Touchstone

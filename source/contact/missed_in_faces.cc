@@ -225,7 +225,8 @@ namespace Touchstone
           continue;
         if (!some_adjusted)
           worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
-        worst.point.face = face.key;
+        worst.point.face  = face.key;
+        worst.point.depth = worst.place.depth;
         result.push_back(worst);
       }
     return result;

@@ -189,9 +189,15 @@ namespace Touchstone
                              {{at[0], at[1]}},
                              {}});
             if (gap({{at[0], at[1], 0.}}) < 0. && !found.back().adjusted)
-              found.back().point = MaterialPoint(face,
-                                                 pair.slave().trace(face),
-                                                 rounded(deepest_in(slave, {{at[0], at[1]}})));
+              {
+                const MeasuredFace::Xi where = rounded(deepest_in(slave, {{at[0], at[1]}}));
+                MaterialPoint         &point = found.back().point;
+                point                        = MaterialPoint(face, pair.slave().trace(face), where);
+                // Exact, where the depth of the search depends on its order: along a cylinder
+                // many places are nearly as deep, and points of faces are compared.
+                point.depth = -gap({{where[0], where[1], 0.}}) - std::max(taken_out, 0.);
+                found.back().place.depth = std::max(counts, point.depth);
+              }
             // Counted once.
             area = 0.;
           }

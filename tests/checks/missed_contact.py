@@ -5,7 +5,7 @@ where rows carry all of it."""
 # ctest: goldens = press_fit_non_matching_faceted
 # ctest: label = quick
 
-from touchstone_test import check, checks, finish, folder, golden, run, tests
+from touchstone_test import below, check, checks, finish, folder, golden, run, tests
 
 SCHEME = "Time integration/Scheme"
 DOWN = "Body rib/Boundary top/Displacement z"
@@ -122,4 +122,16 @@ check("can follow" in end.text, f"{end}: {end.text}")
 # Nor do facets beside planes of symmetry.
 fit = run("fit", checks / "fit_at_symmetry.prm")
 check(not fit.summary["warnings"], f"fit: {fit.summary['warnings']}")
+
+# Points in neighbouring faces come together if they are as deep: the mirrored scene, whose faces have other
+# numbers, has the same ones.
+across = checks / "cylinder_across_faces.prm"
+mirrored = {"Body block/Fixed": "top", "Body block/Geometry/Lower corner": "-1.44875607711568, -1.22250066015104, 0",
+            "Body block/Geometry/Upper corner": "1.44875607711568, 1.22250066015104, 0.786971384181363",
+            "Obstacle punch/Point": "0.0234875494843693, 0.102989699415289, -1.06649260472004",
+            "Obstacle punch/Motion z": "0.00608911936706652 * min(1, t)",
+            "Contact pair contact/Slave boundaries": "bottom"}
+forces = [run("across", across).force("contact"), run("across_mirrored", across, mirrored).force("contact")]
+for one, other, sign in zip(*forces, (1, 1, -1)):
+    below(f"cylinder across faces, forces {forces}", abs(one - sign * other), 1e-6 * abs(forces[0][2]))
 finish()
