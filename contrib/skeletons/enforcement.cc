@@ -21,6 +21,12 @@ namespace Touchstone
       {
       }
 
+      std::vector<std::string>
+      keys() const override
+      {
+        return {"Tangential factor"};
+      }
+
     protected:
       void
       evaluate(const Contact &contact, const Vector &, const ConstraintGraph &) override
