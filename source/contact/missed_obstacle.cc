@@ -177,7 +177,7 @@ namespace Touchstone
                                                                   MeasuredFace::Xi{{at[0], at[1]}})
                                                            .x,
                                                          0.));
-            counts -= std::max(taken_out, 0.);
+            counts -= taken_out;
             if (counts <= Tolerances::touching * size + slave.sagitta())
               continue;
             const Point<dim> on_face = position({{at[0], at[1], 0.}});
@@ -195,7 +195,7 @@ namespace Touchstone
                 point                        = MaterialPoint(face, pair.slave().trace(face), where);
                 // Exact, where the depth of the search depends on its order: along a cylinder
                 // many places are nearly as deep, and points of faces are compared.
-                point.depth = -gap({{where[0], where[1], 0.}}) - std::max(taken_out, 0.);
+                point.depth              = -gap({{where[0], where[1], 0.}}) - taken_out;
                 found.back().place.depth = std::max(counts, point.depth);
               }
             // Counted once.

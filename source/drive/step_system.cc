@@ -303,12 +303,23 @@ namespace Touchstone
     // No row has a partner yet.
     if (size == 0.)
       size = length;
-    distance                        = active > 0 ? (consistent(state) ? 1e-2 : 1e-3) * size
-                                                 : std::clamp(1.01 * distance, 1e-3 * size, size);
     constexpr double before_contact = 1e-7, in_contact = 1e-3;
-    double           smallest = active > 0 ? in_contact : before_contact;
-    if (active > 0 && consistent(state))
-      smallest = std::clamp(in_contact * std::sqrt(state.residual), before_contact, in_contact);
+    double           smallest;
+    if (active == 0)
+      {
+        distance = std::clamp(1.01 * distance, 1e-3 * size, size);
+        smallest = before_contact;
+      }
+    else if (consistent(state))
+      {
+        distance = 1e-2 * size;
+        smallest = std::clamp(in_contact * std::sqrt(state.residual), before_contact, in_contact);
+      }
+    else
+      {
+        distance = 1e-3 * size;
+        smallest = in_contact;
+      }
     system->diagonal_shift = modes.stabilisation(motion, state.unbalanced, distance, smallest);
     free_motions           = motion.description;
     loose.insert(motion.bodies.begin(), motion.bodies.end());

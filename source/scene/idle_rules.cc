@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-// Which sections and keys have no effect in a scene, one entry each. What an enforcement acts on it
-// says itself (Enforcement::keys(), ImpulseRule::keys()).
+// Which sections and keys have no effect in a scene, whole sections first. What an enforcement acts
+// on it says itself (Enforcement::keys(), ImpulseRule::keys()).
 namespace Touchstone
 {
   namespace
@@ -49,7 +49,7 @@ namespace Touchstone
       for (const char *const key : {"Impact tolerance", "Smallest step"})
         {
           rules.push_back({!implicit, section, key, scheme});
-          rules.push_back({implicit && !time.adapts_to_impacts(),
+          rules.push_back({!time.adapts_to_impacts(),
                            section,
                            key,
                            "steps are not shortened to end at impacts ('Adapt steps', 'Impact')"});
@@ -80,15 +80,12 @@ namespace Touchstone
       for (const char *const key : {"Friction", "Tangential factor"})
         rules.push_back({!scene.has_friction(), section, key, "no pair has friction"});
       const bool regularised = !cycles && contact.friction == ContactParameters::Stick::regularised;
-      rules.push_back({scene.has_friction() && !regularised && !acts("Tangential factor"),
+      rules.push_back({!regularised && !acts("Tangential factor"),
                        section,
                        "Tangential factor",
                        cycles ? by_method : by_method + " and 'Friction' is 'exact'"});
       for (const char *const key : {"Friction", "Linearisation"})
-        rules.push_back({cycles && (scene.has_friction() || std::string(key) != "Friction"),
-                         section,
-                         key,
-                         "explicit dynamics solves no systems of equations"});
+        rules.push_back({cycles, section, key, "explicit dynamics solves no systems of equations"});
     }
 
 

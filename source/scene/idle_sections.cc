@@ -93,17 +93,18 @@ namespace Touchstone
   {
     const std::vector<SceneEntry> changed = changed_entries(defaults, complete);
     std::vector<std::string>      sentences;
-    std::set<std::string>         idle_sections;
+    // Of several rules for a key the first one tells why, and the keys of a section that has no
+    // effect at all need no sentences of their own.
+    std::set<std::pair<std::string, std::string>> told;
     for (const IdleRule &rule : idle_rules(scene))
       {
-        if (!rule.idle || idle_sections.count(rule.section) > 0 ||
+        if (!rule.idle || told.count({rule.section, ""}) > 0 ||
+            told.count({rule.section, rule.key}) > 0 ||
             std::none_of(changed.begin(), changed.end(), [&rule](const SceneEntry &entry) {
               return entry.section == rule.section && (rule.key.empty() || entry.key == rule.key);
             }))
           continue;
-        // Its keys need no sentences of their own.
-        if (rule.key.empty())
-          idle_sections.insert(rule.section);
+        told.insert({rule.section, rule.key});
         sentences.push_back(
           (rule.key.empty() ? "section '" : "key '" + rule.key + "' of section '") + rule.section +
           "' has no effect: " + rule.reason);

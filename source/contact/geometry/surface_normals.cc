@@ -30,8 +30,10 @@ namespace Touchstone
   Surface::set_planes_of_symmetry(const std::map<Index, std::vector<Tensor<1, dim>>> &planes)
   {
     for (NodeOfFaces &node : surface_nodes)
-      if (const auto found = planes.find(node.node); found != planes.end())
-        node.images = MirrorImages(found->second);
+      {
+        const auto found = planes.find(node.node);
+        node.images      = found != planes.end() ? MirrorImages(found->second) : MirrorImages();
+      }
     const auto on_one = [&planes](const Edge &edge) {
       const auto first = planes.find(edge.first), second = planes.find(edge.second);
       if (first == planes.end() || second == planes.end())
@@ -44,7 +46,8 @@ namespace Touchstone
     };
     for (Face &face : faces)
       {
-        const auto all = edges(face);
+        const auto all      = edges(face);
+        face.mirrored_edges = 0;
         for (unsigned int e = 0; e < 4; ++e)
           if (face.outer_edges & (1u << e) && on_one(all[e]))
             face.mirrored_edges |= 1u << e;
