@@ -12,9 +12,8 @@ namespace Touchstone
 
   namespace
   {
-    /** Relative to the size of the faces: by so much surfaces are moved inwards for the check of
-     * crossings, a gap that is closed, and an overlap that is still one of this pair. */
-    constexpr double touching = 4. * GeneralContact::inset, overlapping = 0.01;
+    /** Relative to the size of the faces, an overlap that is still one of this pair. */
+    constexpr double overlapping = 0.01;
   } // namespace
 
 

@@ -150,7 +150,9 @@ namespace Touchstone
     Inset        result;
     if (length > 0.)
       result.normal = sum / length;
-    result.depth = std::min(size(node), slender * std::sqrt(std::sqrt(smallest)));
+    // Mostly no face is so small that its size, of which this is the fourth power, counts.
+    const double of_node = size(node), square = of_node * of_node / (slender * slender);
+    result.depth = smallest < square * square ? slender * std::sqrt(std::sqrt(smallest)) : of_node;
     return result;
   }
 

@@ -195,9 +195,12 @@ namespace Touchstone
     using TwoEdges   = MovingSurface::TwoEdges;
 
     static constexpr double tie = MovingSurface::tie;
-    /** Relative to the size of faces: what is farther apart does not touch, however surfaces that
-     * are moved inwards turn. */
-    static constexpr double reserve = 0.012;
+    /** Relative to the size of faces, a gap that is closed. */
+    static constexpr double touching = 4. * inset;
+    /** Relative to the size of faces: surfaces that are moved inwards and are farther apart than
+     * this do not touch, nor cross, while their nodes do not move. Each of both is moved by no more
+     * than an inset, in whatever direction, when it is looked at and later. */
+    static constexpr double reserve = 1.2 * (touching + 4. * inset);
 
     /** A node over one of the four triangles of a face. */
     struct Hit
