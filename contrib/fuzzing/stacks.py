@@ -2,10 +2,12 @@
 """Random scenes of bodies that lie on each other or on an obstacle."""
 
 import dataclasses
+import math
 
 from . import parts
 from .materials import behaviour, material, settings
 from .motions import KINDS, Motion
+from .round_geometry import Tube
 from .scene import Body, Condition, Formula, Obstacle, Pair, Scene
 
 STILL = (Formula(0.0),) * 3
@@ -36,6 +38,14 @@ def _pair(rng, name, a, a_boundaries, b, b_boundaries, either=True):
     return Pair(name, a, a_boundaries, b, b_boundaries, settings(rng), law, coefficient)
 
 
+def _clearance(low, top, bore):
+    """The smallest gap as they are placed. A tube that lies across a bore reaches into it with its ends."""
+    if not bore or not isinstance(top.geometry, Tube) or top.geometry.axis == low.geometry.axis:
+        return 0.0
+    radius, half = low.geometry.inner, top.geometry.end
+    return math.sqrt(radius * radius - half * half) - radius
+
+
 def two(rng):
     """A body pressed onto another one or onto a plane, and moved over it."""
     rigid = rng.random() < 0.2
@@ -59,7 +69,8 @@ def two(rng):
         bodies.insert(0, Body("low", low.geometry, *other, fixed=low.support))
         pair = _pair(rng, "contact", "top", top.contact, "low", low.contact)
     return Scene("Two bodies, " + motion.kind, tuple(bodies), obstacles, (pair,),
-                 motion.end_time, motion.end_time * rng.randint(2, 4), clearance=0.0)
+                 motion.end_time, motion.end_time * rng.randint(2, 4),
+                 clearance=_clearance(low, top, bore))
 
 
 def row(rng):
