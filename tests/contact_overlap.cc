@@ -87,6 +87,71 @@ namespace
     std::cout << std::endl;
   }
 
+  /** Two masters whose common edge lies almost on the lower edge of a slave face, at @p angle:
+   * where they cross runs along that edge by 1 / angle for the smallest motion across it. The
+   * integral over both parts of a function that is continuous over the common edge must not: its
+   * difference quotients hardly change over 1.5 angle, and are the derivatives of the points. */
+  void
+  edge_along_edge(const double angle)
+  {
+    const Face slave   = make_face({{Point<dim>(-1., 0., 0.),
+                                     Point<dim>(1., 0., 0.),
+                                     Point<dim>(-0.7, 1., 0.),
+                                     Point<dim>(0.7, 1.1, 0.)}});
+    const auto masters = [angle](const double motion) {
+      const Point<dim> left(-1.3, motion - 1.3 * angle, 0.1), right(1.4, motion + 1.4 * angle, 0.2);
+      return std::array<Face, 2>{
+        {make_face({{right, left, Point<dim>(1.2, 1.9, 0.1), Point<dim>(-1.5, 1.4, 0.3)}}),
+         make_face({{Point<dim>(1.1, -1.5, 0.2), Point<dim>(-1.2, -1.2, 0.1), right, left}})}};
+    };
+    // The nodes on the right and on the left of the common edge, as nodes of the two masters.
+    const unsigned int nodes[2][2] = {{0, 1}, {2, 3}};
+    const auto         integral    = [&](const double motion) {
+      double     result = 0.;
+      const auto faces  = masters(motion);
+      for (unsigned int f = 0; f < 2; ++f)
+        for (const OverlapPoint &p : overlap(slave, faces[f]))
+          result +=
+            p.weight * FaceShapes(1, p.slave).value[0] * FaceShapes(1, p.master).value[nodes[f][0]];
+      return result;
+    };
+    const auto derivative = [&](const double motion) {
+      double     result = 0.;
+      const auto faces  = masters(motion);
+      for (unsigned int f = 0; f < 2; ++f)
+        for (const auto &p : differentiated_overlap<4>(slave, faces[f]))
+          for (const unsigned int node : nodes[f])
+            {
+              const unsigned int v = dim * (4 + node) + 1;
+              const FaceShapes   on_slave(1, p.slave), on_master(1, p.master);
+              const double       a = on_slave.value[0], b = on_master.value[nodes[f][0]];
+              result += p.d_weight[v] * a * b;
+              for (unsigned int d = 0; d < 2; ++d)
+                result += p.weight * (on_slave.gradient[0][d] * p.d_slave[d][v] * b +
+                                      a * on_master.gradient[nodes[f][0]][d] * p.d_master[d][v]);
+            }
+      return result;
+    };
+
+    constexpr int n     = 10;
+    const double  step  = 1.5 * angle / n;
+    double        least = 1e300, most = -1e300, error = 0.;
+    for (int i = -n; i < n; ++i)
+      {
+        const double change = (integral((i + 1) * step) - integral(i * step)) / step;
+        least               = std::min(least, change);
+        most                = std::max(most, change);
+        // Not where the corner comes to an end of the edge within the step.
+        const double at = (i + 0.5) * step, h = 0.1 * step;
+        error =
+          std::max(error,
+                   std::abs((integral(at + h) - integral(at - h)) / (2. * h) - derivative(at)));
+      }
+    std::cout << "edge along an edge at " << angle << ": changes of the derivative "
+              << small((most - least) / most, 1e-2) << ", error " << small(error, 1e-5)
+              << std::endl;
+  }
+
   /** The face with its nodes numbered from another corner, @p turns times the next one. */
   Face
   renumbered(const Face &face, const unsigned int turns)
@@ -222,6 +287,9 @@ main()
   compare_orders("eight corners", warped, warped_over(0.));
   compare_orders("five corners", warped, warped_over(-0.5));
   compare_orders("three corners", warped, warped_over(1.4));
+
+  for (const double angle : {1e-3, 1e-4, 1e-6, 1e-8})
+    edge_along_edge(angle);
 
   connect("no face", {});
   connect("a strip", {{{0, 1, 2, 3}}, {{2, 3, 4, 5}}, {{4, 5, 6, 7}}});

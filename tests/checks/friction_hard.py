@@ -53,6 +53,13 @@ for enforcement in EXACT_ENFORCEMENTS:
     below(f"{rocking}, force {force} differs from {answer}", relative(math.hypot(*force), math.hypot(*answer)), 1e-6)
     check(rocking.iterations() <= 15, f"{rocking}: {rocking.iterations()} iterations")
 
+# Edges of slave and master that lie almost on each other: where along them they cross must not matter.
+bolt = run("bolt", checks / "friction_bolt.prm")
+for name, enforcement in ("multipliers", MULTIPLIERS), ("augmented", AUGMENTED):
+    result = run(f"bolt_{name}", checks / "friction_bolt.prm", enforcement)
+    same(bolt, result, 1e-6)
+    check(result.iterations() <= 25, f"{result}: {result.iterations()} iterations")
+
 # Planes of symmetry that the master does not have are rollers: friction acts across them as where a displacement is
 # prescribed. The normal of the table is exact.
 rollers = checks / "friction_rollers.prm"

@@ -211,6 +211,14 @@ namespace Touchstone
      * lies on a corner of another, what is left of it changes from one iterate to the next. */
     constexpr double sliver = 1e-12;
 
+    /** By the area of a polygon: corners whose triangles with their neighbours are smaller count as
+     * straight, the more the smaller; and by this, those that are equally straight. */
+    constexpr double straight_corner = 1e-2, equally_straight = 1e-8;
+
+    /** Of the ways to divide a polygon with straight corners, by their shares, those that are left
+     * out. */
+    constexpr double smallest_share = 1e-10;
+
     /** Areas, relative to each other, that are equal up to round-off. */
     constexpr double equal_areas = 1e-9;
 
