@@ -252,6 +252,14 @@ namespace Touchstone
     /** Angle, in radian, by which a perpendicular may lie outside the plane of two normals. */
     constexpr double out_of_plane = 0.1;
 
+    /** Angle, in radian, of the directions normal to both of two parallel edges, from which on the
+     * edges touch each other and not a face the edge. */
+    constexpr double edges_touch = 0.1;
+
+    /** By the size of its faces: a slave node that is so near to an edge of the master, or so deep
+     * behind it in an iterate, may stand on the edge. */
+    constexpr double onto_edge = 0.5;
+
     /** By the length of an edge: feet that far beyond its end count where edges bend at a node, so
      * that no crossing is lost between two perpendiculars. */
     constexpr double beyond_bend = 0.05;
