@@ -256,9 +256,10 @@ namespace Touchstone
      * edges touch each other and not a face the edge. */
     constexpr double edges_touch = 0.1;
 
-    /** By the size of its faces: a slave node that is so near to an edge of the master, or so deep
-     * behind it in an iterate, may stand on the edge. */
-    constexpr double onto_edge = 0.5;
+    /** By the size of its faces: a slave node that is no farther from an edge of the master, in
+     * front of it or, in an iterate, behind it, may stand on the edge; and by the depth behind it,
+     * how much farther beside it than `touching`. */
+    constexpr double onto_edge = 2., beside_edge = 0.1;
 
     /** By the length of an edge: feet that far beyond its end count where edges bend at a node, so
      * that no crossing is lost between two perpendiculars. */

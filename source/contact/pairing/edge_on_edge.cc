@@ -39,11 +39,11 @@ namespace Touchstone
     {
       const auto around = slave.faces_around(node);
       // Most nodes lie on smooth parts of a surface.
-      const bool smooth = std::all_of(around.begin(), around.end(), [&](const auto &entry) {
-        const auto &first = around.front();
-        return entry.first->own_normals[entry.second] * first.first->own_normals[first.second] >
-               Tolerances::sharp_edge_cosine;
-      });
+      bool smooth = true;
+      for (const auto &[one, m] : around)
+        for (const auto &[other, l] : around)
+          smooth =
+            smooth && one->own_normals[m] * other->own_normals[l] > Tolerances::sharp_edge_cosine;
       if (smooth)
         return {};
       std::vector<const Face *> faces;
@@ -100,6 +100,7 @@ namespace Touchstone
       return {};
     result.nodes           = other.nodes;
     result.edge            = e;
+    result.edge_face       = other.faces[0];
     const double at        = (x - other.a) * e / e.norm_square();
     result.along           = std::clamp(at, 0., 1.);
     result.free            = (at > 0. && at < 1.);
@@ -153,6 +154,31 @@ namespace Touchstone
 
 
 
+  bool
+  EdgeOnEdge::holds(const Point<dim> &start, const bool swept, const double size) const
+  {
+    const double gap    = distance * normal;
+    const double beside = (distance - gap * normal).norm();
+    // Beside the edge it is a face that is touched. An iterate may carry the node deep into the
+    // body, where the face that is closest would be decided by how it got there.
+    if (std::abs(gap) > Tolerances::onto_edge * size ||
+        beside > Tolerances::touching * size + Tolerances::beside_edge * std::max(0., -gap))
+      return false;
+    // What was behind the edge before is the other side of a thin body.
+    if (!swept || gap >= 0.)
+      return true;
+    Tensor<1, dim> before = start - Point<dim>();
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        const unsigned int m = local(*edge_face, nodes[k]);
+        before -= (k == 0 ? 1. - along : along) *
+                  (edge_face->reference[m] + edge_face->committed[m] - Point<dim>());
+      }
+    return before * normal > -Tolerances::deep_edge * size;
+  }
+
+
+
   std::optional<EdgeOnEdge>
   EdgeOnEdge::find(const Surface    &slave,
                    const Search     &search,
@@ -177,12 +203,7 @@ namespace Touchstone
         for (const SharpEdge &edge : own)
           {
             const auto found = on_edge(edge, other, node, point.x);
-            if (!found)
-              continue;
-            // Beside the edge it is the face that is touched.
-            const double gap    = found->distance * found->normal;
-            const double beside = (found->distance - gap * found->normal).norm();
-            if (std::abs(gap) > reach || beside > Tolerances::touching * size)
+            if (!found || !found->holds(point.start, search.exchange().swept(), size))
               continue;
             const double difference =
               result ? found->distance.norm() - result->distance.norm() : -size;

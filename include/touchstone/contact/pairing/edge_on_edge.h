@@ -67,7 +67,9 @@ namespace Touchstone
     /** The master edge, from node 0 to node 1, and the fraction at which the node stands. */
     std::array<Index, 2>   nodes;
     dealii::Tensor<1, dim> edge;
-    double                 along = 0.;
+    /** One of the faces that meet in it. */
+    const Face *edge_face = nullptr;
+    double      along     = 0.;
     /** It can move along the edge. */
     bool                   free = true;
     dealii::Tensor<1, dim> distance, normal;
@@ -75,6 +77,10 @@ namespace Touchstone
 
     static std::optional<EdgeOnEdge>
     on_edge(const SharpEdge &own, const SharpEdge &other, Index node, const dealii::Point<dim> &x);
+    /** Whether a node lies on the line of the edge but for tolerances, along the normal in front of
+     * it or where it has come to since the step began. @param start Of the node in the step. */
+    bool
+    holds(const dealii::Point<dim> &start, bool swept, double size) const;
     dealii::Tensor<1, dim>
     sum_of_normals(const Side &side) const;
   };
