@@ -49,6 +49,17 @@ namespace
                                       "set Cells        = 3, 4, 1",
                                       slave_and_master("upper", "bottom", "lower", "surface"));
 
+  // Two blocks that meet in one edge.
+  const std::string edges =
+    two_bodies("lower",
+               "set Cells = 3, 4, 2",
+               "upper",
+               "set Lower corner = 1, 0.03, 1\n"
+               "set Upper corner = 2, 0.95, 2\n"
+               "set Cells        = 2, 5, 3",
+               slave_and_master("upper", "bottom, left", "lower", "top, right") +
+                 "\nset Pairing = pointwise");
+
   // A ring with a slit: its ends meet, with slaves on one side alone.
   const std::string slit =
     "set Bodies = ring\nset Contact pairs = pair\n" +
@@ -316,6 +327,9 @@ main(int argc, char **argv)
         0.03);
   for (const std::string kind : {"face", "averaged", "smoothed"})
     check("slit, " + kind, slit, {set("Master normal", kind)}, 0.);
+  // Beside the edge by less than a thousandth of a face.
+  for (const std::string kind : {"face", "averaged", "smoothed"})
+    check("edge on edge, " + kind, edges, {set("Master normal", kind)}, 0., 5e-5);
   // Normals on planes of symmetry are those of the whole body.
   for (const std::string pairing : {"pointwise", "averaged", "inside-outside"})
     for (const std::string kind : {"averaged", "smoothed"})

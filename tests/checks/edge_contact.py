@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Edges that cross and a vertex in a face: one answer of all enforcements, solvers, pairings and
-roles, symmetry, and what cannot be solved says so."""
+"""Edges that cross, edges that are parallel and a vertex in a face: one answer of all enforcements,
+solvers, pairings and roles, symmetry, and what cannot be solved says so."""
 # ctest: goldens = crossed_edges, edge_across_edge, vertex_in_slave_face
 
 from touchstone_test import (AUGMENTED, CG, GMRES, MULTIPLIERS, PENALTY, STEPS, below, check, finish,
-                             golden, relative, run, same, tests)
+                             folder, golden, relative, run, same, tests)
 
 CONSISTENT = {"Contact/Linearisation": "consistent"}
 crossed, across, vertex = (golden(name) for name in
@@ -45,6 +45,66 @@ for name, file in (("across", "edge_across_edge.prm"), ("vertex", "vertex_in_sla
 # Newton's method converges quadratically.
 quadratic = run("quadratic", scene, {**CONSISTENT, STEPS: 1})
 check(quadratic.iterations() <= 7, f"{quadratic}: {quadratic.iterations()} iterations")
+
+# Two blocks that meet in one edge are pressed on each other across it: one of them on a plane in the middle.
+BLOCK = """subsection Body {name}
+  set Symmetry            = front, back
+  set Boundary conditions = {sides}
+  subsection Geometry
+    set Lower corner = {corner}, 0, {corner}
+    set Upper corner = {corner} + 1, 1, {corner} + 1
+    set Cells        = 3, {cells}, 3
+  end
+  subsection Material
+    set Law           = neo-Hookean
+    set Young modulus = 100
+    set Poisson ratio = 0.3
+  end
+"""
+DRIVEN = """  subsection Boundary {side}
+    set Displacement x = {way} * t
+    set Displacement z = {way} * t
+  end
+"""
+PLANE = """subsection Obstacle plane
+  set Point     = 1, 0, 1
+  set Direction = 1, 0, 1
+end
+"""
+
+
+def block(name, corner, cells, way):
+    """A block whose two sides away from the edge are driven."""
+    sides = ("left", "bottom") if corner == 0 else ("right", "top")
+    text = BLOCK.format(name=name, sides=", ".join(sides), corner=corner, cells=cells)
+    return text.replace(f"{corner} + 1", str(corner + 1)) + "".join(
+        DRIVEN.format(side=side, way=way) for side in sides) + "end\n"
+
+
+def pressed(name, head, blocks, master):
+    """Write a scene of blocks; the upper one is the slave."""
+    path = folder / f"{name}.prm"
+    path.write_text(f"{head}set Contact pairs = edge\n{blocks}subsection Contact pair edge\n"
+                    f"  set Slave body       = upper\n  set Slave boundaries = bottom, left\n{master}end\n"
+                    "subsection Load stepping\n  set Steps = 5\nend\n", encoding="utf-8")
+    return path
+
+
+upper = block("upper", 1, 2, -0.1)
+on_plane = run("on_plane", pressed("on_plane", "set Bodies    = upper\nset Obstacles = plane\n", upper + PLANE,
+                                   "  set Obstacle         = plane\n")).force("edge")
+ON_EDGE = ("  set Master body       = lower\n  set Master boundaries = top, right\n"
+           "  set Pairing           = pointwise\n")
+parallel = pressed("parallel", "set Bodies = lower, upper\n", block("lower", 0, 2, 0.1) + upper, ON_EDGE)
+for name, settings in (("parallel", {}), ("parallel_augmented", AUGMENTED), ("parallel_consistent", CONSISTENT)):
+    result = run(name, parallel, settings)
+    below(f"{result}, force against that on a plane",
+          max(abs(a - b) for a, b in zip(result.force("edge"), on_plane)) / on_plane[2], 1e-8)
+# Nodes along the edges that do not match: the force stays that of mirror images.
+other = run("parallel_other", pressed("parallel_other", "set Bodies = lower, upper\n",
+                                      block("lower", 0, 3, 0.08) + upper.replace("-0.1 *", "-0.08 *"), ON_EDGE))
+force = other.force("edge")
+below(f"{other}, force across the plane in the middle", abs(force[0] - force[2]) / on_plane[2], 1e-8)
 
 # Friction: bodies that slide along each other's edge pull with mu N, one that sticks holds.
 slides = {f"{pair}/Behaviour": "coulomb", f"{pair}/Friction/Coefficient": 0.2,

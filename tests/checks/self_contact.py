@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Self-contact of implicit runs against half of the body and a plane in the middle: a ring that is pressed
-between two planes until its inner walls meet and are pressed on (doc/theory.md, section 4.4)."""
+between two planes until its inner walls meet and are pressed on (doc/theory.md, section 4.4), and a C that
+closes until its ends meet, sharp edge on sharp edge, and is pressed on (section 4.2, "Parallel edges")."""
 
 import shutil
 
@@ -23,19 +24,20 @@ def scenes(name, scheme, steps, damping=0):
                   **common))
 
 
-def history(result):
-    """The force of the upper plane by time; steps may have been cut."""
-    return {round(row["time"], 9): row["top: force z"] for row in result.rows()}
+def history(result, column="top: force z"):
+    """The force of the upper plane, or another column, by time; steps may have been cut."""
+    return {round(row["time"], 9): row[column] for row in result.rows()}
 
 
-def compare(one, other, bound):
-    """The forces of the whole body against those of the half, at all times that both have."""
+def compare(one, other, bound, nodes=20):
+    """The forces of the whole body against those of the half, at all times that both have; at the end so
+    many @p nodes of the whole touch it."""
     forces, expected = history(one), history(other)
     times = set(forces) & set(expected)
     check(len(times) >= 20, f"{one}: only {len(times)} times to compare")
     below(f"{one}, force against that of {other}", max((abs(forces[t] - expected[t]) for t in times), default=1) /
           max(map(abs, expected.values())), bound)
-    check(one.column("itself: active nodes")[-1] >= 20, f"{one}: the ring does not touch itself")
+    check(one.column("itself: active nodes")[-1] >= nodes, f"{one}: the ring does not touch itself")
     below(f"{one}, penetration", max(one.column("itself: max penetration")), 1e-6)
 
 
@@ -66,6 +68,30 @@ whole, half = scenes("dynamic", DYNAMIC, 40, 20)
 reference, expected = run("dynamic", whole), run("dynamic_half", half)
 compare(reference, expected, 1e-3)
 same(reference, run("dynamic_2", whole, ranks=2), 1e-8)
+
+# A C whose ends meet with the edges of their inner walls, which the planes press on each other. In statics
+# soft springs hold it along the planes.
+SPRINGS = """subsection Body ring
+  set Boundary conditions = inner
+  subsection Boundary inner
+    set Spring stiffness normal     = 1e-3
+    set Spring stiffness tangential = 1e-3
+  end
+end
+"""
+for name, more in (("c_static", {"scheme": STATIC, "steps": 20, "more": SPRINGS}),
+                   ("c_dynamic", {"scheme": DYNAMIC, "steps": 25})):
+    damping = 20 if name == "c_dynamic" else 0
+    c = write(name, 120, 300, "2, 40, 1", 6.2, 4, damping, "start, end", (TOP, BOTTOM), ITSELF,
+              element="F-bar", **more)
+    half_c = write(f"{name}_half", 270, 150, "2, 20, 1", 6.2, 4, damping, "first cut, start, end",
+                   (TOP, ("middle", 0, 1, 0, "inner, outer, second cut")), "", element="F-bar", **more)
+    reference, expected = run(name, c), run(f"{name}_half", half_c)
+    compare(reference, expected, 1e-6, nodes=2)
+    edges, on_plane = history(reference, "itself: force z"), history(expected, "middle: force z")
+    below(f"{name}, force of the edges against that of the half on the plane",
+          max(abs(edges[t] - on_plane[t]) for t in set(edges) & set(on_plane)) / max(on_plane.values()), 1e-6)
+    same(reference, run(f"{name}_2", c, ranks=2), 1e-8)
 
 refused = run("adaptive", whole, {"Refinement/Estimator": "Kelly"}, fails=True)
 check("touches itself" in refused.text, f"{refused}: {refused.text}")

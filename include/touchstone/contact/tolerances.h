@@ -260,6 +260,15 @@ namespace Touchstone
     /** Angle, in radian, by which a perpendicular may lie outside the plane of two normals. */
     constexpr double out_of_plane = 0.1;
 
+    /** Angle, in radian, of the directions normal to both of two parallel edges, from which on the
+     * edges touch each other and not a face the edge. */
+    constexpr double edges_touch = 0.1;
+
+    /** By the size of its faces: a slave node that is no farther from an edge of the master, in
+     * front of it or, in an iterate, behind it, may stand on the edge; and by the depth behind it,
+     * how much farther beside it than `touching`. */
+    constexpr double onto_edge = 2., beside_edge = 0.1;
+
     /** By the length of an edge: feet that far beyond its end count where edges bend at a node, so
      * that no crossing is lost between two perpendiculars. */
     constexpr double beyond_bend = 0.05;

@@ -22,10 +22,13 @@ namespace Touchstone
     {
       Point<dim>           a, b, centre;
       std::array<Index, 2> nodes;
-      std::uint64_t        key;
+      const Face          *face;
       Tensor<1, dim>       normal;
       bool                 outer, own;
     };
+
+    /** The sides of edges by their two corner nodes. */
+    using SidesOfEdges = std::map<std::pair<Index, Index>, std::vector<Side>>;
 
     /** Unit vector in the tangent plane of the face, perpendicular to the edge, away from the face.
      */
@@ -51,6 +54,66 @@ namespace Touchstone
       return n * m[0] < along && n * m[1] < along &&
              angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + Tolerances::out_of_plane;
     }
+    /** Add the edges of a face. Edges are identified by their two corner nodes, so each face around
+     * an edge contributes one side. */
+    void
+    add_sides(const Face &face, const bool own, SidesOfEdges &sides)
+    {
+      // Corners in the order of the bits of Face::outer_edges.
+      const unsigned int p = face.degree, last = face.n_nodes() - 1;
+      const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
+      const FacePoint    middle        = evaluate(face, nullptr, {{0., 0.}});
+      for (unsigned int e = 0; e < 4; ++e)
+        {
+          const unsigned int i = corners[e][0], j = corners[e][1];
+          sides[std::minmax(face.nodes[i], face.nodes[j])].push_back(
+            {face.position(i),
+             face.position(j),
+             middle.x,
+             {{face.nodes[i], face.nodes[j]}},
+             &face,
+             middle.normal(),
+             (face.outer_edges >> e & 1u) != 0,
+             own});
+        }
+    }
+
+    std::vector<SharpEdge>
+    sharp_edges_of(const SidesOfEdges &sides, const double cosine)
+    {
+      std::vector<SharpEdge> result;
+      for (const auto &[nodes, list] : sides)
+        {
+          const Side &one = list.front();
+          // Each edge is reported by ranks that own a face there.
+          if (std::none_of(list.begin(), list.end(), [](const Side &s) { return s.own; }))
+            continue;
+          // Where the surface ends the body may go on at any angle: the second normal lies in the
+          // tangent plane of the face, which admits all directions up to a right angle.
+          if (list.size() == 1 && one.outer)
+            result.push_back({one.a,
+                              one.b,
+                              one.nodes,
+                              one.face->key,
+                              {{one.normal, outward(one)}},
+                              {{one.face, nullptr}}});
+          if (list.size() == 2)
+            {
+              const Side &two = list.back();
+              // The centre of the neighbour lies below the face. A concave edge cannot be touched
+              // from outside.
+              const bool convex = (two.centre - one.a) * one.normal < 0.;
+              if (convex && one.normal * two.normal < cosine)
+                result.push_back({one.a,
+                                  one.b,
+                                  one.nodes,
+                                  std::min(one.face->key, two.face->key),
+                                  {{one.normal, two.normal}},
+                                  {{one.face, two.face}}});
+            }
+        }
+      return result;
+    }
   } // namespace
 
 
@@ -58,53 +121,22 @@ namespace Touchstone
   std::vector<SharpEdge>
   sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others, const double cosine)
   {
-    std::map<std::pair<Index, Index>, std::vector<Side>> sides;
+    SidesOfEdges sides;
     for (const auto *list : {&own, &others})
       for (const Face &face : *list)
-        {
-          // Corners in the order of the bits of Face::outer_edges.
-          // Edges are identified by their two corner nodes, so each face around an edge contributes
-          // one side.
-          const unsigned int p = face.degree, last = face.n_nodes() - 1;
-          const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
-          const FacePoint    middle        = evaluate(face, nullptr, {{0., 0.}});
-          for (unsigned int e = 0; e < 4; ++e)
-            {
-              const unsigned int i = corners[e][0], j = corners[e][1];
-              sides[std::minmax(face.nodes[i], face.nodes[j])].push_back(
-                {face.position(i),
-                 face.position(j),
-                 middle.x,
-                 {{face.nodes[i], face.nodes[j]}},
-                 face.key,
-                 middle.normal(),
-                 (face.outer_edges >> e & 1u) != 0,
-                 list == &own});
-            }
-        }
-    std::vector<SharpEdge> result;
-    for (const auto &[nodes, list] : sides)
-      {
-        const Side &one = list.front();
-        // Each edge is reported by ranks that own a face there.
-        if (std::none_of(list.begin(), list.end(), [](const Side &s) { return s.own; }))
-          continue;
-        // Where the surface ends the body may go on at any angle: the second normal lies in the
-        // tangent plane of the face, which admits all directions up to a right angle.
-        if (list.size() == 1 && one.outer)
-          result.push_back({one.a, one.b, one.nodes, one.key, {{one.normal, outward(one)}}});
-        if (list.size() == 2)
-          {
-            const Side &two = list.back();
-            // The centre of the neighbour lies below the face. A concave edge cannot be touched
-            // from outside.
-            const bool convex = (two.centre - one.a) * one.normal < 0.;
-            if (convex && one.normal * two.normal < cosine)
-              result.push_back(
-                {one.a, one.b, one.nodes, std::min(one.key, two.key), {{one.normal, two.normal}}});
-          }
-      }
-    return result;
+        add_sides(face, list == &own, sides);
+    return sharp_edges_of(sides, cosine);
+  }
+
+
+
+  std::vector<SharpEdge>
+  sharp_edges(const std::vector<const Face *> &faces, const double cosine)
+  {
+    SidesOfEdges sides;
+    for (const Face *const face : faces)
+      add_sides(*face, true, sides);
+    return sharp_edges_of(sides, cosine);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/aggregated_rows.h>
+#include <touchstone/contact/pairing/edge_on_edge.h>
 #include <touchstone/contact/pairing/end_of_surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
@@ -91,6 +92,8 @@ namespace Touchstone
       EndOfSurface   end;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
+      /** And the edges that nodes stand on, which take the place of partners. */
+      std::vector<std::optional<EdgeOnEdge>> edges;
       /** Keys of the faces that were the partners of the nodes in the last update. */
       std::vector<std::optional<std::uint64_t>> present_faces;
       /** And their indices in the search, where they are most likely found again. */
@@ -144,17 +147,28 @@ namespace Touchstone
       all.insert(all.end(), start.begin(), start.end());
       search.update(all);
       partners.resize(nodes.size());
+      edges.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow &row     = rows[k];
-          const auto &partner = partners[k] = search.find(slave_point(k, positions[k], row));
+          ContactRow      &row   = rows[k];
+          const SlavePoint point = slave_point(k, positions[k], row);
+          row.stencil.clear();
+          if ((edges[k] = EdgeOnEdge::find(*input.slave, search, point, row.slave, row.size)))
+            {
+              // Which of the faces beside the edge comes after it is not known.
+              partners[k].reset();
+              present_faces[k].reset();
+              row.has_partner = true;
+              edges[k]->set(row);
+              continue;
+            }
+          const auto &partner = partners[k] = search.find(point);
           // The face of this update is preferred in the next one, also in the next step and after a
           // restart (memory()).
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
           if (partner)
             indices[k] = search.exchange().index(*partner->face);
-          row.stencil.clear();
           if (!partner)
             {
               end.left(k, row);
@@ -178,14 +192,18 @@ namespace Touchstone
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       std::vector<const Face *>       needed;
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        if (rows[k].was_active)
+        if (rows[k].was_active && edges[k])
+          edges[k]->add_faces(needed);
+        else if (rows[k].was_active)
           add_faces(*partners[k], needed);
       // Collective: also without active rows on this rank.
       const auto of_normals = search.normal_derivatives(needed);
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           rows[k].derivative.reset();
-          if (rows[k].was_active)
+          if (rows[k].was_active && edges[k])
+            edges[k]->differentiate(*input.slave, of_normals, rows[k]);
+          else if (rows[k].was_active)
             differentiate_pointwise_row(
               search, of_normals, *partners[k], input.slave->position(nodes[k], u), rows[k]);
         }

@@ -24,6 +24,9 @@ namespace Touchstone
      * points away from it within its tangent plane: the side of the body beyond the edge is
      * unknown and may have any normal between both. */
     std::array<dealii::Tensor<1, dim>, 2> normals;
+    /** The faces of these normals, which live as long as the list that the edge was found in; the
+     * second is null where the surface ends. */
+    std::array<const Face *, 2> faces;
   };
 
   /** @brief The sharp edges of the faces @p own, in their present positions. Two faces meet in
@@ -35,6 +38,11 @@ namespace Touchstone
   sharp_edges(const std::vector<Face> &own,
               const std::vector<Face> &others,
               double                   cosine = Tolerances::touching_edge_cosine);
+
+  /** @brief The same of a choice of faces. */
+  std::vector<SharpEdge>
+  sharp_edges(const std::vector<const Face *> &faces,
+              double                           cosine = Tolerances::touching_edge_cosine);
 
   /** @brief Two edges that can only touch each other. */
   struct EdgeCrossing
