@@ -16,7 +16,8 @@ FOLDER is the output folder of a run; the last time is shown (or the one next to
 times side by side), deformed S times (1). On the left solution.pvd with the field von_mises, on the
 right contact.pvd with the field pressure, unless told otherwise. The camera looks from the direction X Y Z; the image is
 cropped to what it shows, or, with a width, to a square of that size around the focus; panels
-have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges. --pairs
+have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges, --no-edges those of cells: of cells of degree 2 these
+are the triangles that VTK draws them with. --pairs
 shows the surfaces of these contact pairs, numbered from 0 in the order of the scene; without it pairs that
 are tied, whose pressure can be tension, are left out where there are others. --mirror
 adds the other half of bodies that are cut by the planes x = 0 or y = 0. --points also writes the
