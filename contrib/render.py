@@ -6,7 +6,7 @@ Usage: /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
           [--scale S] [--time "T ..."] [--range "LOW HIGH"] [--contact-range "LOW HIGH"]
           [--camera "X Y Z"] [--up "X Y Z"] [--focus "X Y Z"] [--width W]
           [--contact-camera "X Y Z"] [--contact-up "X Y Z"] [--contact-width W]
-          [--hide "BODY NUMBER ..."] [--mirror "x y"] [--no-edges] [--no-outline]
+          [--hide "BODY NUMBER ..."] [--pairs "PAIR NUMBER ..."] [--mirror "x y"] [--no-edges] [--no-outline]
           [--size "WIDTH HEIGHT"] [--points FILE.txt]
 
 Needs VTK 9 for Python (apt-get install python3-vtk9 python3-numpy xvfb xauth); on a machine without a
@@ -16,7 +16,10 @@ FOLDER is the output folder of a run; the last time is shown (or the one next to
 times side by side), deformed S times (1). On the left solution.pvd with the field von_mises, on the
 right contact.pvd with the field pressure, unless told otherwise. The camera looks from the direction X Y Z; the image is
 cropped to what it shows, or, with a width, to a square of that size around the focus; panels
-have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges. --mirror
+have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges, --no-edges those of cells: of cells of degree 2 these
+are the triangles that VTK draws them with. --pairs
+shows the surfaces of these contact pairs, numbered from 0 in the order of the scene; without it pairs that
+are tied, whose pressure can be tension, are left out where there are others. --mirror
 adds the other half of bodies that are cut by the planes x = 0 or y = 0. --points also writes the
 values at the contact nodes as a table "x y z pressure gap status". Without --unit the legend says what
 the field is made of, as force/length^2.
@@ -92,6 +95,7 @@ def arguments():
     add("--contact-up", type=numbers)
     add("--contact-width", type=float)
     add("--hide", type=numbers, default=[])
+    add("--pairs", type=numbers)
     add("--mirror", default="")
     add("--no-edges", action="store_true")
     add("--no-outline", action="store_true")
@@ -116,6 +120,27 @@ def read(pvd, time):
         append.AddInputData(reader.GetOutput())
     append.Update()
     return append.GetOutput()
+
+
+def of_pairs(grid, pairs):
+    """The faces of these contact pairs, or of those that are not tied if there are any."""
+    data = grid.GetPointData()
+    pair, status = (numpy_support.vtk_to_numpy(data.GetArray(n)) for n in ("pair", "status"))
+    if pairs is None:
+        pairs = numpy.unique(pair[status != 3])
+        if not pairs.size:
+            return grid
+    elif not numpy.isin(pairs, pair).all():
+        sys.exit(f"--pairs: the run has the pairs {', '.join(f'{p:g}' for p in numpy.unique(pair))}")
+    chosen = vtk.vtkIdList()
+    for cell in range(grid.GetNumberOfCells()):
+        if pair[grid.GetCell(cell).GetPointId(0)] in pairs:
+            chosen.InsertNextId(cell)
+    extract = vtk.vtkExtractCells()
+    extract.SetInputData(grid)
+    extract.SetCellList(chosen)
+    extract.Update()
+    return extract.GetOutput()
 
 
 def merged(grid):
@@ -392,6 +417,7 @@ def main():
         contact = read(a.folder / "contact.pvd", a.time[-1] if a.time else None)
         if a.points:
             write_points(contact, a.points)
+        contact = of_pairs(contact, a.pairs)
         panels.append(panel([surface(contact, a.scale, a.mirror.split())], a.contact,
                             f"contact {a.contact.replace('_', ' ')}{contact_unit}, slave surface", a.contact_range,
                             style, (a.contact_camera or a.camera, a.contact_up or a.up,

@@ -111,22 +111,28 @@ def table(path):
 
 
 def newton(folder):
-    """Residuals of each step by iteration, of a log; of a step that was cut each attempt."""
-    attempts, current = [], None
+    """Residuals of each step by iteration, of a log; of a step that was cut each attempt, and of one with a
+    force on a tool or a bolt each solution."""
+    return [residuals for _, residuals in attempts(folder)]
+
+
+def attempts(folder):
+    """The same as pairs (what it is, residuals): 'step 2, t = 0.5', the next solution '(2)'."""
+    found, current, step, number = [], None, "", 0
     if not (folder / "log").is_file():
-        return attempts
+        return found
     for line in (folder / "log").read_text(encoding="utf-8", errors="replace").splitlines():
-        if line.startswith("Step "):
-            current = None
+        if head := re.match(r"Step (\d+)\S*\s+t = (\S+)", line):
+            current, step, number = None, f"step {head[1]}, t = {head[2]}", 0
         # iteration, residual, gap, active nodes, changes, linear iterations
         words = line.split()
         if len(words) >= 5 and re.fullmatch(r"\d+", words[0]) and re.fullmatch(
                 r"[\d.]+e[+-]\d+", words[1]):
             if current is None or int(words[0]) <= len(current):
-                current = []
-                attempts.append(current)
+                current, number = [], number + 1
+                found.append((step + (f" ({number})" if number > 1 else ""), current))
             current.append(float(words[1]))
-    return attempts
+    return found
 
 
 def surface(folder, time=None):

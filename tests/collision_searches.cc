@@ -4,6 +4,7 @@
 // What is not finite is refused. With --costs it measures instead: tests/collision_support.h.
 
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/collision/box_tree.h>
 #include <touchstone/collision/broad_phase.h>
 
 #include "collision_support.h"
@@ -226,6 +227,41 @@ namespace
               << (n_refused == 3 * n_methods && n_right == n_methods ? "refused" : "FAILED")
               << std::endl;
   }
+
+  /** The nearest box of a tree is that of all, and few are looked at, also from far away where all
+   * have nearly the same distance. */
+  void
+  nearest()
+  {
+    RandomNumbers random;
+    bool          right   = true;
+    unsigned int  n_looks = 0;
+    for (const std::string &kind : std::vector<std::string>{"equal sizes", "all the same", "flat"})
+      {
+        SearchBoxes boxes;
+        boxes.append(scene(kind, 4000, random), "the set");
+        BoxTree tree;
+        tree.build(boxes);
+        for (const double away : {0.5, 3., 1e6})
+          {
+            const Point<dim> x(0.1 - away, 0.2 * away, away);
+            double           least = std::numeric_limits<double>::max(), found = least;
+            unsigned int     n = 0;
+            for (const FlatBox &box : boxes.boxes)
+              least = std::min(least, box.distance_square(x));
+            tree.nearest(x, [&](const unsigned int k) {
+              ++n;
+              found = std::min(found, boxes.boxes[k].distance_square(x));
+              return std::sqrt(found);
+            });
+            right &= found == least;
+            // Boxes in the same distance all are looked at.
+            if (kind != "all the same")
+              n_looks = std::max(n_looks, n);
+          }
+      }
+    std::cout << "nearest: " << (right && n_looks < 200 ? "right" : "FAILED") << std::endl;
+  }
 } // namespace
 
 int
@@ -237,6 +273,7 @@ main(int argc, char **argv)
       return 0;
     }
   compare_all();
+  nearest();
   refused("NaN", [](BoundingBox<dim> &b) {
     b.get_boundary_points().first[1] = std::numeric_limits<double>::quiet_NaN();
   });

@@ -4,6 +4,8 @@
 #include <touchstone/collision/radix_sort.h>
 #include <touchstone/collision/search_grid.h>
 
+#include <limits>
+
 namespace Touchstone
 {
   void
@@ -195,5 +197,46 @@ namespace Touchstone
          k < std::min<unsigned int>(2 * node + 2, levels[level - 1].size());
          ++k)
       meeting(box, level - 1, k, result);
+  }
+
+
+  void
+  BoxTree::nearest(const dealii::Point<dim>                  &x,
+                   const std::function<double(unsigned int)> &look_at) const
+  {
+    if (!levels.empty())
+      nearest(x, std::numeric_limits<double>::max(), levels.size() - 1, 0, look_at);
+  }
+
+
+  double
+  BoxTree::nearest(const dealii::Point<dim>                  &x,
+                   double                                     reach,
+                   const unsigned int                         level,
+                   const unsigned int                         node,
+                   const std::function<double(unsigned int)> &look_at) const
+  {
+    if (level == 0)
+      {
+        for (unsigned int k = leaf_size * node; k < std::min(leaf_size * (node + 1), n()); ++k)
+          if (boxes[k].distance_square(x) <= reach)
+            {
+              const double distance = look_at(numbers[k]);
+              // Boxes in the same distance but for round-off are visited, too.
+              reach = distance * distance * (1. + 1e-12);
+            }
+        return reach;
+      }
+    unsigned int below[2] = {2 * node, 2 * node + 1};
+    const auto   away     = [&](const unsigned int child) {
+      return child < levels[level - 1].size() ? levels[level - 1][child].box.distance_square(x)
+                                                    : std::numeric_limits<double>::infinity();
+    };
+    if (away(below[1]) < away(below[0]))
+      std::swap(below[0], below[1]);
+    for (const unsigned int child : below)
+      if (away(child) <= reach)
+        reach = nearest(x, reach, level - 1, child, look_at);
+    return reach;
   }
 } // namespace Touchstone

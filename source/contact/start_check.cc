@@ -297,7 +297,9 @@ namespace Touchstone
                      slave_boundaries(),
                      "every node of the slave boundaries faces away from " + what +
                        ": the bodies would pass through each other",
-                     "name the boundaries of '" + parameters.slave_body + "' that face it");
+                     "name the boundaries of '" + parameters.slave_body +
+                       "' that face it; or look with '--preview' whether both are where they "
+                       "belong ('Move', and 'Scale' of files in other units)");
   }
 
 

@@ -282,7 +282,9 @@ namespace Touchstone
       }
     write_summary();
     warnings.repeat();
-    if (!summary.converged)
+    if (summary.interrupted)
+      log.line("The run was interrupted: " + summary.failure);
+    else if (!summary.converged)
       {
         log.line("The run did not converge: " + summary.failure);
         log.line("The last converged state is in " + folder.path("solution.pvd") + ". " +

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/collision/box_tree.h>
 #include <touchstone/mesh/facet_surface.h>
 
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,19 +29,21 @@ namespace Touchstone
       {
         join(triangles);
         check();
-        std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
-        for (unsigned int f = 0; f < facets.size(); ++f)
+        std::vector<BoundingBox<3>> boxes;
+        for (const Corners &facet : facets)
           {
-            Point<3> low = corners[facets[f][0]], high = low;
-            for (const unsigned int v : facets[f])
+            Point<3> low = corners[facet[0]], high = low;
+            for (const unsigned int v : facet)
               for (unsigned int d = 0; d < 3; ++d)
                 {
                   low[d]  = std::min(low[d], corners[v][d]);
                   high[d] = std::max(high[d], corners[v][d]);
                 }
-            boxes.emplace_back(BoundingBox<3>({low, high}), f);
+            boxes.emplace_back(std::make_pair(low, high));
           }
-        tree = pack_rtree(boxes);
+        SearchBoxes search;
+        search.append(boxes, "facets");
+        tree.build(search);
       }
 
       Point<3>
@@ -97,7 +99,7 @@ namespace Touchstone
       std::vector<Tensor<1, 3>>                           normals, corner_normals;
       std::map<std::array<unsigned int, 2>, Tensor<1, 3>> edge_normals;
       double                                              size = 0.;
-      RTree<std::pair<BoundingBox<3>, unsigned int>>      tree;
+      BoxTree                                             tree;
 
       /** Number the corners. */
       void
@@ -180,23 +182,19 @@ namespace Touchstone
       Closest
       closest(const Point<3> &x) const
       {
-        namespace bgi = boost::geometry::index;
         Closest best;
         double  distance = std::numeric_limits<double>::max();
-        // By the distance of their boxes: none behind the first that is farther than what is found.
-        for (auto it = tree.qbegin(bgi::nearest(x, facets.size())); it != tree.qend(); ++it)
-          {
-            if (boost::geometry::distance(x, it->first) > distance)
-              break;
-            const Closest other = on_facet(x, it->second);
-            const double  d     = x.distance(other.point);
-            // Of facets in the same distance the first of the file, whatever the order of search.
-            if (d < distance || (d == distance && other.facet < best.facet))
-              {
-                distance = d;
-                best     = other;
-              }
-          }
+        tree.nearest(x, [&](const unsigned int facet) {
+          const Closest other = on_facet(x, facet);
+          const double  d     = x.distance(other.point);
+          // Of facets in the same distance the first of the file, whatever the order of search.
+          if (d < distance || (d == distance && other.facet < best.facet))
+            {
+              distance = d;
+              best     = other;
+            }
+          return distance;
+        });
         return best;
       }
 

@@ -46,6 +46,7 @@ def goes_on(name, scene, settings, number, whole, **how):
     check(code == INTERRUPTED, f"{name}: exit code {code}, {text[-500:]}")
     check(f"Interrupted: ended by the signal {signal_name} in step" in text and
           "--resume" in text, f"{name}: the reason is not said: {text[-500:]}")
+    check("did not converge" not in text and "Try more" not in text, f"{name}: advice on Newton: {text[-500:]}")
     failure = Run(name, folder / name, "").summary.get("failure", "")
     check(signal_name in failure, f"{name}: summary.json says {failure}")
     check(any((folder / name).glob("checkpoint_*")), f"{name}: no checkpoint")

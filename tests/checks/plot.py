@@ -32,15 +32,15 @@ run("two", SCENE, {STEPS: 4}, ranks=2, vtu=1)
 
 def curves(kind, name="one", **options):
     """Curves by their labels, and the names of the axes."""
-    settings = {"column": None, "over": None, "axis": "x", "steps": 6,
-                "runs": [name], **options}
+    settings = {"column": None, "over": None, "axis": "x", "steps": None,
+                "runs": [name], "units": "", "planes": {}, **options}
     found, *axes = plot.curves(kind, folder / name, argparse.Namespace(**settings))
     return {label: (list(x), list(y)) for label, x, y in found}, axes
 
 
 force, axes = curves("force")
 time, pressed = force["contact.force_z"]
-check(axes == ["time [time]", "force [force]"] and time == [0.] + one.column("time"), f"{axes}")
+check(axes == ["time", "force"] and time == [0.] + one.column("time"), f"{axes}")
 check(pressed == [0.] + one.column("contact: force z") and pressed[-1] > 0, f"force {pressed}")
 of_four = curves("force", runs=["one"] * 4)[0]
 check(len(force) > 3 == len(of_four) and "contact.force_z" in of_four, f"curves of four runs {list(of_four)}")
@@ -48,15 +48,31 @@ over, axes = curves("force", over="top:displacement_z", column="contact.force_z"
 check(list(over) == ["contact.force_z"] and axes[0] == "displacement_z [length]", f"{axes}")
 check(math.isclose(over["contact.force_z"][0][-1], -0.037), f"{over}")
 check("energy.strain" in curves("energy")[0], "energies")
+check(curves("force", over="top:displacement_z", units="kN m s")[1] == ["displacement_z [m]", "force [kN]"], "units")
+check(curves("pressure", units="N mm s")[1] == ["x [mm]", "contact pressure [N/mm^2]"], "units of a pressure")
 newton, _ = curves("newton")
+check(list(newton)[-1] == f"step 4, t = {time[-1]:g}", f"{list(newton)}")
+check(len(curves("newton", runs=["one"] * 3)[0]) == 2, "solutions of each of three runs")
 check(len(newton) == 4 and [len(y) for _, y in newton.values()] == one.column("Newton iterations"),
       f"{newton}")
 for name in "one", "two":
     (label, (x, p)), = curves("pressure", name)[0].items()
-    check(label == "contact", f"the pair is called {label}")
+    check(label.startswith("contact, "), f"the pair is called {label}")
     check(len(x) == 4 and x == sorted(x), f"line at {x}")
     check(max(p) == max(node.pressure for face in plot.faces(folder / name) for node in face) > 0,
           f"pressures {p}")
+
+
+# Solutions of one step that a force takes, and attempts with a smaller step.
+(folder / "log").write_text("""
+Step 1/2   t = 1   clamp
+          1   1.00e-01   0.00e+00        9        9   direct
+          1   1.00e-02   0.00e+00        9        0   direct
+Step 1/4   t = 0.5
+          1   1.00e-03   0.00e+00        9        0   direct
+""", encoding="utf-8")
+check([name for name, _ in plot.attempts(folder)] == ["step 1, t = 1", "step 1, t = 1 (2)", "step 1, t = 0.5"],
+      f"{plot.attempts(folder)}")
 
 
 def grid(point, pressure, m, n):
@@ -72,18 +88,29 @@ def grid(point, pressure, m, n):
 # plane: half a bore, and a ring about the axis.
 bore = grid(lambda i, j: (2 * math.cos(i / 4), 2 * math.sin(i / 4), j), lambda i, j: 9 * (i == 4) + (j == 1), 12, 2)
 for axis, count in ((0, 13), (1, 13), (2, 3)):
-    check(sum(not math.isnan(x) for x, _ in plot.section(bore, axis)) == count, f"section along {axis} of a bore")
+    check(sum(not math.isnan(x) for x, _ in plot.section(bore, axis)[0]) == count, f"section along {axis} of a bore")
 ring = grid(lambda i, j: ((2 + i) * math.cos(j / 7), (2 + i) * math.sin(j / 7), 3),
             lambda i, j: 5 - i + (j == 4), 4, 11)
 for axis in (0, 1):
-    line = [p for p in plot.section(ring, axis) if not math.isnan(p[0])]
+    line = [p for p in plot.section(ring, axis)[0] if not math.isnan(p[0])]
     check(len(line) >= 5 and sorted(line, key=lambda p: p[0]) in (line, line[::-1]),
           f"section along {axis} of a ring {line}")
 # A cap, whose pole has the largest pressure: the plane across the axis only touches it.
 cap = grid(lambda i, j: (i - 2, j - 2, ((i - 2)**2 + (j - 2)**2) / 9), lambda i, j: 3 * (i == j == 2), 4, 4)
 for axis, count in ((0, 5), (1, 5), (2, 5)):
-    check(len(plot.section(cap, axis)) == count, f"section along {axis} of a cap")
+    check(len(plot.section(cap, axis)[0]) == count, f"section along {axis} of a cap")
+# Another run is compared in the plane of the first, if it meets the surface.
+check(plot.section(cap, 0, (1, 1.))[1] == (1, 1.) and plot.section(cap, 0, (1, 9.))[1][1] == 0, "plane of another run")
 check(len({node.position for face in plot.faces(folder / "two") for node in face}) == 16, "surface of two ranks")
+
+# Tied pairs, which carry tension, are left out where there are others.
+of_run, plot.pairs = plot.faces, lambda _: ["slides", "tied"]
+for status, labels in ((1, ["slides"]), (3, ["slides", "tied"])):
+    both = [[argparse.Namespace(position=(i, j, 0), pressure=1., pair=pair, status=3 if pair else status)
+             for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))] for pair in (0, 1)]
+    plot.faces = lambda _, both=both: both
+    check([label.partition(",")[0] for label in curves("pressure")[0]] == labels, f"lines of pairs with status {status}")
+plot.faces = of_run
 
 # The module that reads runs.
 touchstone = sys.modules["touchstone"]

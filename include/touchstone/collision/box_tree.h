@@ -5,6 +5,9 @@
 
 #include <touchstone/collision/search_boxes.h>
 
+#include <deal.II/base/point.h>
+
+#include <functional>
 #include <vector>
 
 namespace Touchstone
@@ -48,6 +51,16 @@ namespace Touchstone
     void
     meeting(const FlatBox &box, std::vector<unsigned int> &result) const;
 
+    /**
+     * @brief Visit boxes until what is nearest to @p x is found, near ones first.
+     *
+     * @param look_at Is given the number of a box and returns the distance of the nearest that it
+     * has met so far; of boxes farther than that no more are visited, but those in the same
+     * distance all are.
+     */
+    void
+    nearest(const dealii::Point<dim> &x, const std::function<double(unsigned int)> &look_at) const;
+
   private:
     static constexpr unsigned int leaf_size = 4;
 
@@ -70,6 +83,13 @@ namespace Touchstone
             unsigned int               level,
             unsigned int               node,
             std::vector<unsigned int> &result) const;
+
+    double
+    nearest(const dealii::Point<dim>                  &x,
+            double                                     reach,
+            unsigned int                               level,
+            unsigned int                               node,
+            const std::function<double(unsigned int)> &look_at) const;
   };
 } // namespace Touchstone
 

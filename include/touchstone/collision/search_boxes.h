@@ -66,6 +66,19 @@ namespace Touchstone
       return result;
     }
 
+    /** @brief Square of the distance of @p x; 0 within. */
+    double
+    distance_square(const dealii::Point<dim> &x) const
+    {
+      double result = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double away = std::max({lower[d] - x[d], x[d] - upper[d], 0.});
+          result += away * away;
+        }
+      return result;
+    }
+
     /** @brief The longest side. */
     double
     size() const
