@@ -148,7 +148,8 @@ namespace Touchstone
     for (; factor >= 2.; factor /= 2.)
       ++level;
 
-    BodyMesh all;
+    BodyMesh          all;
+    std::vector<bool> has_middle_nodes;
     for (unsigned int body = 0; body < input.bodies.size(); ++body)
       {
         // Errors of a geometry are reported with the section of its body, since geometries do not
@@ -164,6 +165,7 @@ namespace Touchstone
             " beside straight cells, and elements of degree 1 do not have them: the "
             "body has straight edges. Use 'Discretisation/Degree = 2', or a "
             "'Refinement factor' of 2, whose new nodes they are.");
+        has_middle_nodes.push_back(mesh.bulge > 0.);
         const auto ids = append(mesh, body, all);
 
         add_boundaries(mesh, ids, input.bodies[body].symmetry);
@@ -174,10 +176,21 @@ namespace Touchstone
     // by one, so that partitions do not depend on the law that all have in common.
     const auto contact_work = std::make_shared<ContactWork>();
     for (const ForestInput::Pair &pair : input.pairs)
-      contact_work->add_pair(
-        all,
-        boundary_ids(pair.slave_body, pair.slave_boundaries, pair.section, "Slave boundaries"),
-        boundary_ids(pair.master_body, pair.master_boundaries, pair.section, "Master boundaries"));
+      {
+        const BoundaryIds slaves  = boundary_ids(pair.slave_body,
+                                                pair.slave_boundaries,
+                                                pair.section,
+                                                "Slave boundaries"),
+                          masters = boundary_ids(pair.master_body,
+                                                 pair.master_boundaries,
+                                                 pair.section,
+                                                 "Master boundaries");
+        contact_work->add_pair(all, slaves, masters);
+        if (pair.takes_facets && !has_middle_nodes[pair.slave_body])
+          notice_facets(all, slaves, input.bodies[pair.slave_body].name, pair.section);
+        if (pair.takes_facets && !has_middle_nodes[pair.master_body])
+          notice_facets(all, masters, input.bodies[pair.master_body].name, pair.section);
+      }
     const CellWork work = [contact_work](const Triangulation<dim>::cell_iterator &cell) {
       return (*contact_work)(cell);
     };

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/mesh/faceted_boundary.h>
 #include <touchstone/mesh/forest.h>
 
+#include <algorithm>
 #include <array>
+#include <iomanip>
 #include <map>
+#include <sstream>
 
 // The boundaries and sets of nodes of all bodies: users refer to them by names or by the numbers of
 // a mesh file, which are translated here into ids of the mesh, with messages that list what there
@@ -185,5 +189,34 @@ namespace Touchstone
     // Null means that contact knows the facets of the mesh alone (doc/theory.md, section 4).
     const auto found = surfaces.find(id);
     return found != surfaces.end() ? found->second : nullptr;
+  }
+
+
+
+  /** Say so where contact takes the faces of boundaries for a curved surface that they divide. */
+  void
+  Forest::notice_facets(const BodyMesh    &all,
+                        const BoundaryIds &ids,
+                        const std::string &body,
+                        const std::string &section)
+  {
+    const FacetedBoundary found = find_facets(all, ids, [this](const CellData<2> &face) {
+      return face.manifold_id == numbers::flat_manifold_id && surfaces.count(face.boundary_id) == 0;
+    });
+    if (found.rise == 0.)
+      return;
+    std::ostringstream text;
+    text << std::setprecision(3) << "Boundary '" << boundary_name(found.boundary) << "' of body '"
+         << body << "' has flat faces that bend by " << found.bend
+         << " degrees from one to the next, and contact takes them for the surface: a smooth one "
+            "would rise by "
+         << found.rise
+         << " over them. If a smooth one is meant, and the other side does not have the same "
+            "faces, give its shape by 'Exact surfaces' or by nodes in the middle of edges (20 or "
+            "27 a cell), or set 'Master normal = smoothed' in "
+            "section '"
+         << section << "'.";
+    if (std::find(notices.begin(), notices.end(), text.str()) == notices.end())
+      notices.push_back(text.str());
   }
 } // namespace Touchstone

@@ -351,12 +351,13 @@ namespace Touchstone
       input.bodies.push_back(
         {body.name, body.geometry, body.material.linear() ? 1U : 3U, body.symmetry});
     for (const ContactPairParameters &pair : pairs)
-      // Pairs tell the forest which boundaries meet, for the partitioning.
+      // Pairs tell the forest which boundaries meet.
       input.pairs.push_back({pair.section(),
                              body_index(pair.slave_body),
                              pair.slave_boundaries,
                              pair.master_body.empty() ? 0 : body_index(pair.master_body),
-                             pair.master_boundaries});
+                             pair.master_boundaries,
+                             pair.master_normal != MasterNormal::smoothed});
     return input;
   }
 

@@ -5,7 +5,7 @@ by refinement with degree 1, on two ranks and in another place; straight edges a
 
 import math
 
-from touchstone_test import STEPS, below, check, finish, golden, relative, run, tests
+from touchstone_test import STEPS, below, check, finish, golden, prm, relative, run, tests
 
 EXACT = 1.3 / 3000 * 4.4
 PROBE = {"Probes": "bore", "Probe bore/Body": "ring",
@@ -39,5 +39,11 @@ straight = run("straight", tests / "quadratic_mesh.prm", {DEGREE: 1, FACTOR: 1})
 straight.says("lie up to 0.152241 beside straight cells")
 check(len(straight.summary["warnings"]) == 1, "straight edges are no warning of the summary")
 refined = run("refined", tests / "quadratic_mesh.prm", {**PROBE, DEGREE: 1, FACTOR: 8})
+FACETS = {"Body inner tube/Geometry/Exact surfaces": "", "Body outer tube/Geometry/Exact surfaces": ""}
+flat = run("flat", prm / "imported_mesh.prm", FACETS)
+flat.says("has flat faces that bend by 7.5 degrees")
+check(len(flat.summary["warnings"]) == 2, "not one warning for each of two curved boundaries")
+smooth = run("smooth", prm / "imported_mesh.prm", {**FACETS, "Contact pair fit/Master normal": "smoothed"})
+check(not smooth.summary["warnings"], "a warning of faces that smooth patches replace")
 below("degree 1 on new nodes of the curves, bore moves", relative(radial(refined), EXACT), 1e-2)
 finish()

@@ -31,7 +31,7 @@ namespace Touchstone
       /** Names of boundaries that are planes of symmetry, which 'all' leaves out. */
       std::vector<std::string> symmetry;
     };
-    /** Boundaries that meet, for partitions. */
+    /** Boundaries that meet: for partitions, and for warnings of flat faces. */
     struct Pair
     {
       /** For messages. */
@@ -41,6 +41,8 @@ namespace Touchstone
       /** Without meaning if there are no master boundaries. */
       unsigned int             master_body = 0;
       std::vector<std::string> master_boundaries;
+      /** Flat faces are the surface, instead of smooth patches over them. */
+      bool takes_facets = true;
     };
     std::vector<Body>        bodies;
     std::vector<Pair>        pairs;
@@ -194,6 +196,12 @@ namespace Touchstone
     add_boundaries(const BodyMesh                                                         &mesh,
                    const std::map<dealii::types::boundary_id, dealii::types::boundary_id> &ids,
                    const std::vector<std::string> &symmetry);
+
+    void
+    notice_facets(const BodyMesh    &all,
+                  const BoundaryIds &ids,
+                  const std::string &body,
+                  const std::string &section);
   };
 } // namespace Touchstone
 
