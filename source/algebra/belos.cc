@@ -402,11 +402,10 @@ namespace Touchstone
       if (iterations < 0)
         throw LinearSolverFailure(parameters.type + " did not converge in " +
                                   std::to_string(parameters.maximum_iterations) + " iterations");
-      // The cost of a stale preconditioner is measured against its first solve: half as many
-      // iterations again are more than a new set-up costs.
+      // The cost of a stale preconditioner is measured against its first solve.
       if (fresh_iterations == 0)
         fresh_iterations = std::max(iterations, 1);
-      else if (iterations > fresh_iterations * 3 / 2 + 5)
+      else if (wants_new_set_up(iterations, fresh_iterations))
         preconditioner.reset();
       // In an unsymmetric system slow convergence may be due to one Newton iterate: the next
       // solve tries multigrid again, until it has failed for good (class Strikes).

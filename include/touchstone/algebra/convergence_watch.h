@@ -3,6 +3,7 @@
 #ifndef touchstone_algebra_convergence_watch_h
 #define touchstone_algebra_convergence_watch_h
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -13,6 +14,14 @@ namespace Touchstone
   {
     using std::runtime_error::runtime_error;
   };
+
+  /** @brief Whether a preconditioner that was made for an earlier system is worth a new set-up: its
+   * solve has taken a quarter more iterations, and two at least, than its first one took. */
+  inline bool
+  wants_new_set_up(const int iterations, const int first)
+  {
+    return iterations > std::max(first * 5 / 4, first + 2);
+  }
 
   /**
    * @brief Extrapolates from the residuals of an iteration how many steps it would take.

@@ -6,6 +6,7 @@
 // initialises and finalises it with MPI.
 #ifdef DEAL_II_WITH_PETSC
 
+#  include <touchstone/algebra/convergence_watch.h>
 #  include <touchstone/algebra/linear_solver.h>
 #  include <touchstone/algebra/petsc/ksp.h>
 #  include <touchstone/algebra/petsc/matrices.h>
@@ -256,8 +257,7 @@ namespace Touchstone
           count.iterations += static_cast<unsigned int>(iterations);
         if (fresh_iterations == 0)
           fresh_iterations = std::max<PetscInt>(iterations, 1);
-        // As in belos.cc: half as many iterations again are worth a new set-up.
-        stale = iterations > fresh_iterations * 3 / 2 + 5;
+        stale = wants_new_set_up(iterations, fresh_iterations);
         return reason > 0;
       }
 
