@@ -59,7 +59,7 @@ for path in sorted(mat.folder.glob("solution_*.vtu")):
 below("mat, balance error", abs(mat.value("motion", "energies", "balance_error")) /
       mat.value("motion", "energies", "external"), 1e-2)
 print("mat, cycles between results:", max(mat.column("cycles")))
-rounds_are_few(mat, 2e-3, 2e-2)
+rounds_are_few(mat, 1e-3, 2e-2)
 impulse = mat.value("motion", "energies", "contact")
 check(impulse > 0, "mat: it does not meet itself")
 finish()

@@ -22,8 +22,7 @@ namespace Touchstone
      */
     constexpr double cycles_ahead = 160., most_margin = 0.5, of_impulses = 2.2;
 
-    /** Where many places touch, one or the other always asks for an earlier kind of rows: after so
-     * many rounds none waits for others. */
+    /** After so many rounds no kind of rows waits for earlier ones. */
     constexpr unsigned int rounds_in_order = 2;
 
     /** A gap that was kept open in vain opens by so many times what is missing, or this part of
@@ -261,10 +260,10 @@ namespace Touchstone
 
 
   // Rows of nodes of the finer side alone mostly keep surfaces apart. Those of the other side, and
-  // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: they come only
-  // if something still crosses. With free velocities all that is pressed together crosses, and
-  // touches already: only what is new there is worth a look, and of the other side what has pressed
-  // lately.
+  // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: in each place
+  // they come only if something still crosses there. With free velocities all that is pressed
+  // together crosses, and touches already: only what is new there is worth a look, and of the other
+  // side what has pressed lately.
   GeneralContact::Crossings
   GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
@@ -272,20 +271,17 @@ namespace Touchstone
     moving.set_inner_positions();
     find_open_faces();
     found.clear();
-    std::size_t known   = 0;
-    bool        goes_on = true;
+    waiting.assign(candidates.at_slots.n(), 0);
     for (const Kind kind : {Kind::slave_node, Kind::node, Kind::edges, Kind::inner})
-      if (goes_on && (!ahead || kind == Kind::slave_node))
+      if (!ahead || kind == Kind::slave_node)
         {
+          const std::size_t of_earlier_kinds = found.size();
           for (const OpenFaces &faces : open_faces)
             check_faces(faces, kind);
-          // A row that is not there yet.
-          int is_new = 0;
-          for (; known < found.size(); ++known)
-            is_new |= taking_part(found[known].key) == nullptr;
-          goes_on = !in_order || Utilities::MPI::max(is_new, nodes.communicator()) == 0;
+          if (in_order && !ahead)
+            leave_to_earlier_kinds(of_earlier_kinds);
         }
-    if (goes_on && !ahead)
+    if (!ahead)
       for (const OpenFaces &faces : open_faces)
         keep_until(faces);
     // First of all of them: one place can be found more than once.
@@ -306,6 +302,42 @@ namespace Touchstone
     if (last[1] == 0)
       return Crossings::none;
     return !ahead && checks_in_vain >= most_in_vain ? Crossings::in_vain : Crossings::rows;
+  }
+
+
+
+  // What crosses without a row at a node that has got a new one mostly does so no more with that
+  // row. Rows that take part already are told anew where they cross.
+  void
+  GeneralContact::leave_to_earlier_kinds(const std::size_t first)
+  {
+    const RowNodes &at_slots = candidates.at_slots;
+    found.erase(std::remove_if(found.begin() + first,
+                               found.end(),
+                               [&](const Row &row) {
+                                 return taking_part(row.key) == nullptr &&
+                                        row.any_slot([&](const std::size_t slot) {
+                                          return waiting[at_slots.node(slot)] != 0;
+                                        });
+                               }),
+                found.end());
+    // What other ranks have found at the same nodes counts as well.
+    std::vector<Tensor<1, dim>> marks(at_slots.alone() ? 0 : at_slots.n_slots());
+    for (std::size_t k = first; k < found.size(); ++k)
+      if (taking_part(found[k].key) == nullptr)
+        found[k].any_slot([&](const std::size_t slot) {
+          waiting[at_slots.node(slot)] = 1;
+          if (!at_slots.alone())
+            marks[slot][0] = 1.;
+          return false;
+        });
+    if (at_slots.alone())
+      return;
+    std::vector<Tensor<1, dim>> sums(at_slots.n());
+    at_slots.sum(marks, sums);
+    for (unsigned int node = 0; node < at_slots.n_owned(); ++node)
+      waiting[node] |= sums[node][0] > 0.;
+    at_slots.forward(waiting);
   }
 
 

@@ -322,6 +322,13 @@ namespace Touchstone
     std::optional<Row>
     passed_edge(const SurfacePoint &begin, const SurfacePoint &end, unsigned int face) const;
 
+    /** By node of the slots: it has got a new row in the present check. */
+    std::vector<char> waiting;
+    /** Of what was found from #found[@p first] on take out what has no row yet and waits for rows
+     * of earlier kinds; later kinds wait for what is left. The same on any number of ranks.
+     * Collective. */
+    void
+    leave_to_earlier_kinds(std::size_t first);
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
     use(const Row &row);
@@ -363,8 +370,9 @@ namespace Touchstone
 
     /** Check the motion through the cycle that #moving knows: #new_rows is the same on all
      * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
-     * touch. @param in_order Rows of a kind come only where no earlier kind brings new ones.
-     * @return rows if some have been added or changed, on any rank. Collective. */
+     * touch. @param in_order Rows of a kind come only where no earlier kind brings new ones, that
+     * is at other nodes. @return rows if some have been added or changed, on any rank. Collective.
+     */
     Crossings
     check_motion(bool ahead, bool in_order);
     /** Its parts: pairs of faces that no direction tells apart; what belongs to one, which is added

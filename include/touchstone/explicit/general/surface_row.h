@@ -45,6 +45,18 @@ namespace Touchstone
     bool used = false;
     /** The pair of edges that it is of, if any. */
     std::size_t edges = std::numeric_limits<std::size_t>::max();
+
+    /** @brief Whether @p holds(slot) for any slot of the sides; the others are not asked. */
+    template <class Holds>
+    bool
+    any_slot(const Holds &holds) const
+    {
+      for (const Side &side : sides)
+        for (unsigned int i = 0; i < side.n; ++i)
+          if (holds(side.slots[i]))
+            return true;
+      return false;
+    }
   };
 
   /** @brief Hash and equality of keys of rows. */
