@@ -78,8 +78,34 @@ namespace Touchstone
         }
     }
 
+    /** Whether two faces meet in a convex edge with an angle between their normals above that of
+     * @p cosine. The centre of one lies below the other then; a concave edge cannot be touched from
+     * outside. */
+    bool
+    sharp_now(const Side &one, const Side &two, const double cosine)
+    {
+      return (two.centre - one.a) * one.normal < 0. && one.normal * two.normal < cosine;
+    }
+
+    /** The same in the reference state, for faces of degree 1. */
+    bool
+    sharp_as_made(const Side &one, const Side &two, const double cosine)
+    {
+      if (one.face->degree > 1)
+        return false;
+      const unsigned int   m     = one.face->number_of(one.nodes[0]);
+      const Tensor<1, dim> first = reference_area_vector(*one.face, m),
+                           second =
+                             reference_area_vector(*two.face, two.face->number_of(one.nodes[0]));
+      Tensor<1, dim> to_centre;
+      for (unsigned int l = 0; l < two.face->n_nodes(); ++l)
+        to_centre += 0.25 * (two.face->reference[l] - one.face->reference[m]);
+      return to_centre * first < 0. && first * second < cosine * first.norm() * second.norm();
+    }
+
+    /** @param as_made Also edges that are flat now, but were not in the reference state. */
     std::vector<SharpEdge>
-    sharp_edges_of(const SidesOfEdges &sides, const double cosine)
+    sharp_edges_of(const SidesOfEdges &sides, const double cosine, const bool as_made)
     {
       std::vector<SharpEdge> result;
       for (const auto &[nodes, list] : sides)
@@ -100,10 +126,7 @@ namespace Touchstone
           if (list.size() == 2)
             {
               const Side &two = list.back();
-              // The centre of the neighbour lies below the face. A concave edge cannot be touched
-              // from outside.
-              const bool convex = (two.centre - one.a) * one.normal < 0.;
-              if (convex && one.normal * two.normal < cosine)
+              if (sharp_now(one, two, cosine) || (as_made && sharp_as_made(one, two, cosine)))
                 result.push_back({one.a,
                                   one.b,
                                   one.nodes,
@@ -125,7 +148,7 @@ namespace Touchstone
     for (const auto *list : {&own, &others})
       for (const Face &face : *list)
         add_sides(face, list == &own, sides);
-    return sharp_edges_of(sides, cosine);
+    return sharp_edges_of(sides, cosine, /*as_made=*/false);
   }
 
 
@@ -136,7 +159,7 @@ namespace Touchstone
     SidesOfEdges sides;
     for (const Face *const face : faces)
       add_sides(*face, true, sides);
-    return sharp_edges_of(sides, cosine);
+    return sharp_edges_of(sides, cosine, /*as_made=*/true);
   }
 
 

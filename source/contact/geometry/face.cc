@@ -101,6 +101,16 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  reference_area_vector(const Face &face, const unsigned int m)
+  {
+    const double sign = (m == 0 || m == 3) ? 1. : -1.;
+    return sign * cross_product_3d(face.reference[m ^ 1u] - face.reference[m],
+                                   face.reference[m ^ 2u] - face.reference[m]);
+  }
+
+
+
   bool
   at_end(const Face &face, const unsigned int m)
   {

@@ -30,12 +30,20 @@ namespace Touchstone
     edges_at(const Surface &slave, const Index node)
     {
       const auto around = slave.faces_around(node);
-      // Most nodes lie on smooth parts of a surface.
+      // Edges of degree 2 are curved.
+      if (around.front().first->degree > 1)
+        return {};
+      // Most nodes lie on smooth parts of a surface. What presses on an edge flattens it.
       bool smooth = true;
       for (const auto &[one, m] : around)
         for (const auto &[other, l] : around)
-          smooth =
-            smooth && one->own_normals[m] * other->own_normals[l] > Tolerances::sharp_edge_cosine;
+          {
+            const Tensor<1, dim> first  = reference_area_vector(*one, m),
+                                 second = reference_area_vector(*other, l);
+            smooth                      = smooth &&
+                     one->own_normals[m] * other->own_normals[l] > Tolerances::sharp_edge_cosine &&
+                     first * second > Tolerances::sharp_edge_cosine * first.norm() * second.norm();
+          }
       if (smooth)
         return {};
       std::vector<const Face *> faces;
@@ -135,8 +143,10 @@ namespace Touchstone
     const auto most  = [&](const unsigned int k) { return angles[k] < angles[k + 1] ? k + 1 : k; };
     const unsigned int from = angles[least(0)] > angles[least(2)] ? least(0) : least(2),
                        to   = angles[most(0)] < angles[most(2)] ? most(0) : most(2);
-    // What fits is contact of faces, which rows of nodes describe.
-    if (angles[to] - angles[from] < Tolerances::edges_touch)
+    // What fits is contact of faces, which rows of nodes describe: the cones just meet. One that
+    // lies within the other may be as narrow as it is, of an edge that has been pressed flat.
+    const double common = angles[to] - angles[from];
+    if (common < 0. || (common < Tolerances::edges_touch && (from < 2) != (to < 2)))
       return {};
     result.sides  = {{all[from], all[to]}};
     result.normal = all[from].normal + all[to].normal;
@@ -179,8 +189,7 @@ namespace Touchstone
                    const double      size)
   {
     const std::vector<SharpEdge> own = edges_at(slave, node);
-    // Edges of degree 2 are curved.
-    if (own.empty() || own.front().faces[0]->degree > 1)
+    if (own.empty())
       return {};
     const double                                reach = Tolerances::onto_edge * size;
     std::vector<std::pair<double, std::size_t>> boxes;

@@ -40,9 +40,7 @@ namespace Touchstone
           const unsigned int edges = (m & 1u ? 2u : 1u) | (m & 2u ? 8u : 4u);
           if ((face->outer_edges & edges) != 0)
             return true;
-          const double sign = (m == 0 || m == 3) ? 1. : -1.;
-          normals.push_back(sign * cross_product_3d(face->reference[m ^ 1u] - face->reference[m],
-                                                    face->reference[m ^ 2u] - face->reference[m]));
+          normals.push_back(reference_area_vector(*face, m));
           mean += normals.back();
         }
       return std::any_of(normals.begin(), normals.end(), [&](const Tensor<1, dim> &normal) {

@@ -39,7 +39,8 @@ namespace Touchstone
               const std::vector<Face> &others,
               double                   cosine = Tolerances::touching_edge_cosine);
 
-  /** @brief The same of a choice of faces. */
+  /** @brief The same of a choice of faces of degree 1, also edges that were sharp in the reference
+   * state and have been pressed flat. */
   std::vector<SharpEdge>
   sharp_edges(const std::vector<const Face *> &faces,
               double                           cosine = Tolerances::touching_edge_cosine);

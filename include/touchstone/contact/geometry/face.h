@@ -87,6 +87,11 @@ namespace Touchstone
   std::array<double, 2>
   node_coordinates(const Face &face, unsigned int m);
 
+  /** @brief Outward area vector at a corner of a face of degree 1 in the reference state: the cross
+   * product of the two edges there. */
+  dealii::Tensor<1, dim>
+  reference_area_vector(const Face &face, unsigned int m);
+
   /** @brief Whether a node of a face lies where the surface ends: an edge of the body, in most
    * cases. */
   bool
