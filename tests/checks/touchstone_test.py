@@ -88,8 +88,8 @@ def launch(*arguments, ranks=1, timeout=None):
     with processors(ranks):
         if ranks == 1:
             return forked.run(program, arguments, timeout)
-        return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), program,
-                               *map(str, arguments)], stdout=subprocess.PIPE,
+        return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, "-IS",
+                               forked.__file__, program, *map(str, arguments)], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
 
 
