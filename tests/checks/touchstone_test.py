@@ -93,6 +93,15 @@ def launch(*arguments, ranks=1, timeout=None):
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
 
 
+def forking_program():
+    """A script for tools of contrib that start the program: runs it as launch() does."""
+    script = folder / "touchstone"
+    script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -IS "{forked.__file__}" "{program}" "$@"\n',
+                      encoding="utf-8")
+    script.chmod(0o755)
+    return script
+
+
 def session(leader):
     """Processes of a session: mpirun and ranks are in one, but not in one group of processes."""
     members = []
