@@ -19,14 +19,6 @@ namespace Touchstone
 
   namespace
   {
-    /** The number of a node on a face. */
-    unsigned int
-    local(const Face &face, const Index node)
-    {
-      const auto end = face.nodes.begin() + face.n_nodes();
-      return std::find(face.nodes.begin(), end, node) - face.nodes.begin();
-    }
-
     bool
     has(const SharpEdge &edge, const Index node)
     {
@@ -70,7 +62,7 @@ namespace Touchstone
                return point.self->may_meet(point, *face) &&
                       point.self->is_slave(point,
                                            *face,
-                                           node_coordinates(*face, local(*face, edge.nodes[0])));
+                                           node_coordinates(*face, face->number_of(edge.nodes[0])));
              });
     }
   } // namespace
@@ -119,8 +111,8 @@ namespace Touchstone
         Side       &side     = all[k];
         side.face            = &face;
         side.sign            = (of_slave ? -1. : 1.);
-        side.corners         = {{local(face, of_slave ? node : other.nodes[0]),
-                                 local(face, of_slave ? node : other.nodes[1])}};
+        side.corners         = {{face.number_of(of_slave ? node : other.nodes[0]),
+                                 face.number_of(of_slave ? node : other.nodes[1])}};
         side.normal          = result.sum_of_normals(side);
         side.normal /= side.normal.norm();
         across[k] = side.normal - (side.normal * t) * t;
@@ -170,7 +162,7 @@ namespace Touchstone
     Tensor<1, dim> before = start - Point<dim>();
     for (unsigned int k = 0; k < 2; ++k)
       {
-        const unsigned int m = local(*edge_face, nodes[k]);
+        const unsigned int m = edge_face->number_of(nodes[k]);
         before -= (k == 0 ? 1. - along : along) *
                   (edge_face->reference[m] + edge_face->committed[m] - Point<dim>());
       }

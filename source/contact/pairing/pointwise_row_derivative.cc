@@ -114,9 +114,7 @@ namespace Touchstone
     std::vector<unsigned int> local;
     // Nodes of other faces on whose edge the slave node lies are not on this one.
     for (const StencilEntry &entry : stencil)
-      local.push_back(
-        std::find(face.nodes.begin(), face.nodes.begin() + face.n_nodes(), entry.node) -
-        face.nodes.begin());
+      local.push_back(face.number_of(entry.node));
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
     // The slave node changes r directly and xi over the projection, not the normal at fixed xi.
     // Master nodes move the point and its tangents; nodes around them act over the averaged

@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -72,6 +73,13 @@ namespace Touchstone
     position(const unsigned int m) const
     {
       return reference[m] + displacement[m];
+    }
+
+    /** @brief The number of a node on the face; n_nodes() if it is not one of its nodes. */
+    unsigned int
+    number_of(const Index node) const
+    {
+      return std::find(nodes.begin(), nodes.begin() + n_nodes(), node) - nodes.begin();
     }
   };
 
