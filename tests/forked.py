@@ -55,11 +55,11 @@ def _exit_code(server, words, files, timeout=None):
 def _server(program):
     """A connection to the server of the program; None if there is no library, or an older one than the
     program, or if a library is to come before those of the program."""
-    library = os.path.join(os.path.dirname(program), "libtouchstone_main.so")
+    library, core = (os.path.join(os.path.dirname(program), f"libtouchstone_{name}.so") for name in ("main", "core"))
     if "LD_PRELOAD" in os.environ or not os.path.isfile(library):
         return None
-    built = os.stat(library).st_mtime_ns
-    if built < os.stat(program).st_mtime_ns:
+    built = [os.stat(path).st_mtime_ns for path in (library, program, core)]
+    if built[0] < built[1]:
         return None
     settings = sorted(entry for entry in os.environ.items() if entry[0].startswith(AT_LOAD))
     key = hashlib.sha1(repr((library, built, settings)).encode()).hexdigest()
