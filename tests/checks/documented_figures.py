@@ -4,7 +4,7 @@
 import subprocess
 import sys
 
-from touchstone_test import processors, program, source
+from touchstone_test import forking_program, processors, source
 
 with processors():
-    sys.exit(subprocess.call([sys.executable, source / "contrib/check_figures", "--program", program]))
+    sys.exit(subprocess.call([sys.executable, source / "contrib/check_figures", "--program", forking_program()]))

@@ -5,8 +5,8 @@ same result on two ranks and with another exact formulation, and nothing ends wi
 import subprocess
 import sys
 
-from touchstone_test import folder, processors, program, source
+from touchstone_test import folder, forking_program, processors, source
 
 with processors():
-    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_features", "--program", program,
+    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_features", "--program", forking_program(),
                               "--output", folder, "12", "1"]))

@@ -5,8 +5,8 @@ are right; none shows the text of a library."""
 import subprocess
 import sys
 
-from touchstone_test import folder, processors, program, source
+from touchstone_test import folder, forking_program, processors, source
 
 with processors():
-    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_inputs", "--program", program,
+    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_inputs", "--program", forking_program(),
                               "--output", folder, "--time-limit", "2", "30", "7"]))

@@ -5,12 +5,15 @@ falsified on purpose."""
 import copy
 
 import touchstone_test
-from touchstone_test import folder, program
+from touchstone_test import folder, forking_program
 
 # pylint: disable=wrong-import-order,import-error
 from fuzzing import agreement, campaign, generator, invariants, runs, vtu
 from fuzzing.geometry import Box
 from fuzzing.scene import Body, Condition, Formula, Obstacle, Pair, Scene
+
+
+program = forking_program()
 
 
 def check(what, good):

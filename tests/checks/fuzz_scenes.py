@@ -8,13 +8,13 @@ seed 6 have nodes on edges between faces, a coarse slave on planes of symmetry, 
 import subprocess
 import sys
 
-from touchstone_test import check, finish, folder, processors, program, source
+from touchstone_test import check, finish, folder, forking_program, processors, source
 
 
 def scenes(seed, numbers, *options):
     with processors():
         code = subprocess.call([sys.executable, source / "contrib/fuzz_scenes", "--quick", "--strict",
-                                "--time-limit", "60", "--program", program, "--output", folder,
+                                "--time-limit", "60", "--program", forking_program(), "--output", folder,
                                 "--only", numbers, *options, "0", str(seed)])
     check(code == 0, f"seed {seed}: exit code {code}")
 

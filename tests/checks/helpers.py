@@ -4,7 +4,11 @@
 
 import copy
 import math
+import pathlib
+import shutil
+import subprocess
 import sys
+import time
 
 import touchstone_test as t
 
@@ -77,6 +81,20 @@ try:
     t.fail("a golden that is not declared is read")
 except SystemExit as error:
     print(error)
+
+# If who asks for a forked run is killed, as by a time limit, so is the run.
+shutil.rmtree("killed", ignore_errors=True)
+log = pathlib.Path("killed/log")
+with subprocess.Popen([t.forking_program(), "--results-only", "--output", "killed", "--set", "Load stepping/Steps=100000",
+                       "--set", "Output/VTU interval=0", t.tests / "units_mm.prm"]) as asks:
+    end = time.monotonic() + 60
+    while not (log.is_file() and "Step 2/" in log.read_text(encoding="utf-8")) and time.monotonic() < end:
+        time.sleep(0.02)
+    asks.kill()
+time.sleep(0.5)
+before = log.stat().st_size
+time.sleep(0.5)
+t.check(log.stat().st_size == before, "a run goes on without who asked for it")
 
 # A check with a failure ends with exit code 1.
 t.fail("on purpose")

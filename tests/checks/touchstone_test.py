@@ -88,9 +88,18 @@ def launch(*arguments, ranks=1, timeout=None):
     with processors(ranks):
         if ranks == 1:
             return forked.run(program, arguments, timeout)
-        return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), program,
-                               *map(str, arguments)], stdout=subprocess.PIPE,
+        return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, "-IS",
+                               forked.__file__, program, *map(str, arguments)], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
+
+
+def forking_program():
+    """A script for tools of contrib that start the program: runs it as launch() does."""
+    script = folder / "touchstone"
+    script.write_text(f'#!/bin/sh\nexec "{sys.executable}" -IS "{forked.__file__}" "{program}" "$@"\n',
+                      encoding="utf-8")
+    script.chmod(0o755)
+    return script
 
 
 def session(leader):

@@ -1,13 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# run.sh PROGRAM SCENE.prm MESSAGE FOLDER: the program must fail on the scene and
+# run.sh SCENE.prm MESSAGE FOLDER PROGRAM...: the program must fail on the scene and
 # its message (standard error) must be that of the file MESSAGE. The scene may
 # begin with a comment "# options: ..." for the command line.
 set -eu
-program=$1
-scene=$2
-message=$3
-folder=$4
+scene=$1 message=$2 folder=$3
+shift 3
 
 # The options of the scene tests would hide the scene's own folder.
 export TOUCHSTONE_OPTIONS=--results-only
@@ -15,7 +13,7 @@ mkdir -p "$folder"
 cd "$folder"
 options=$(sed -n 's/^# options: //p' "$scene" | head -n 1)
 code=0
-eval "\"\$program\" $options \"\$scene\"" >stdout 2>stderr || code=$?
+eval "\"\$@\" $options \"\$scene\"" >stdout 2>stderr || code=$?
 if [ "$code" -eq 0 ]; then
   echo "The program accepted the scene, but must not."
   cat stdout
