@@ -54,9 +54,14 @@ def _exit_code(server, words, files, timeout=None):
 
 def _server(program):
     """A connection to the server of the program; None if there is no library, or an older one than the
-    program, or if a library is to come before those of the program."""
+    program, if a library is to come before those of the program, or on systems that cannot tell when a
+    process has ended (Linux before 5.3, or Python before 3.9)."""
     library, core = (os.path.join(os.path.dirname(program), f"libtouchstone_{name}.so") for name in ("main", "core"))
     if "LD_PRELOAD" in os.environ or not os.path.isfile(library):
+        return None
+    try:
+        os.close(os.pidfd_open(os.getpid()))
+    except (AttributeError, OSError):
         return None
     built = [os.stat(path).st_mtime_ns for path in (library, program, core)]
     if built[0] < built[1]:
