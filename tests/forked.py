@@ -131,6 +131,8 @@ def _serve(name, path):
                 continue
             child, ended, client = key.data
             if key.fileobj is client:  # which has nothing more to say: it is gone
+                if client.fileno() < 0:  # and so is its run, which has ended in the same moment
+                    continue
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(child, 9)
                 events.unregister(client)
