@@ -9,8 +9,8 @@
 #include <vector>
 
 // Files with eight nodes a cell do not say whether a boundary is a polyhedron or a smooth surface
-// that has been divided. Contact between facets of the second kind can be wrong by times the force,
-// so that the user is told.
+// that has been divided. Contact between facets of the second kind can carry several times the
+// force, so that the user is told.
 namespace Touchstone
 {
   using namespace dealii;
