@@ -156,6 +156,12 @@ namespace Touchstone
      * go smoothly. */
     constexpr double fair_part = 1. / 64.;
 
+    /** What a face that bends less than others at its node takes from the gap there, by its own
+     * sagitta and not that of the row: 5/12 of it is lost of the motion of a node that moves alone,
+     * on square faces, so that a quarter of this motion is left. With half of it left (6/5) small
+     * faces beside hanging nodes, pressed flat, have gaps above the mean. */
+    constexpr double most_of_sagitta = 9. / 5.;
+
     /** By how much the part of the curvature between two surfaces that is left on a face may be
      * mistaken, because it is not constant, as on a coarse ball: bodies that only touch must have
      * no force. */

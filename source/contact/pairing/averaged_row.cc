@@ -102,13 +102,15 @@ namespace Touchstone
       const Number left = 0.5 * (positive - mean) / sagitta + Tolerances::odd_curvature;
       if (left >= 1.)
         return 0.;
-      // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight to one.
-      Number part = 1.;
-      if (left >= 0.5)
-        part = 1.5 * (1. - left) * (1. - left);
-      else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
-        part = straight;
-      const Number taken = weight * part * above;
+      // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight: of the sagitta of the
+      // row, or of so much of that of the face that the node keeps a part of its own motion.
+      const Number part =
+        left >= 0.5 ? Number(1.5 * (1. - left) * (1. - left)) : Number(1.125 - 1.5 * left);
+      const Number of_face = Tolerances::most_of_sagitta * sagitta;
+      Number       taken   = part * (of_face < above ? of_face : above);
+      if (taken > above)
+        taken = above;
+      taken *= weight;
       // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
       // face than at the point next to the node.
       if (beside.val() == 0.)
