@@ -39,30 +39,45 @@ namespace Touchstone
       std::array<Point<dim>, n_corners> corners;
       /** First dofs of the corners. */
       std::array<Index, n_corners> nodes;
-      /** Whether a face is part of the surface of the body. */
+      /** Whether a face is part of the surface of the body with what lies beyond its planes of
+       * symmetry. */
       std::array<bool, n_faces> outer;
     };
 
-    /** A node on the surface of a body, or the centre of a face (invalid_index): all nodes of a
-     * strip that is one face wide may lie on the sides of what it reaches into. */
-    struct SurfacePoint
+    /** Whether a face lies on a plane of symmetry. */
+    bool
+    on_plane_of_symmetry(const BodyCell &cell, const unsigned int f, const Contact::Mirrors &planes)
     {
-      unsigned int body;
-      Index        node;
-      Point<dim>   x;
-    };
+      std::array<Point<dim>, 4> p;
+      for (unsigned int k = 0; k < 4; ++k)
+        p[k] = cell.corners[GeometryInfo<dim>::face_to_cell_vertices(f, k)];
+      const Tensor<1, dim> normal = cross_product_3d(p[3] - p[0], p[2] - p[1]);
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const auto found =
+            planes.find(cell.nodes[GeometryInfo<dim>::face_to_cell_vertices(f, k)] / dim);
+          if (found == planes.end() ||
+              std::none_of(found->second.begin(), found->second.end(), [&](const auto &plane) {
+                return std::abs(plane * normal) > Tolerances::same_normal_cosine * normal.norm();
+              }))
+            return false;
+        }
+      return true;
+    }
+
+
 
     /** Call @p use with each cell of this rank: cells are made one at a time, as there may be many.
      */
     template <class Use>
     void
-    for_each_cell(const Solid                  &solid,
+    for_each_cell(const Contact                &contact,
                   const Vector                 &u,
                   const std::set<unsigned int> &bodies,
                   const Use                    &use)
     {
       BodyCell one;
-      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      for (const auto &cell : contact.solid_model().dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && bodies.count(cell->material_id()) > 0)
           {
             one.body    = cell->material_id();
@@ -70,7 +85,8 @@ namespace Touchstone
             for (unsigned int v = 0; v < n_corners; ++v)
               one.nodes[v] = cell->vertex_dof_index(v, 0);
             for (unsigned int f = 0; f < n_faces; ++f)
-              one.outer[f] = cell->at_boundary(f);
+              one.outer[f] =
+                cell->at_boundary(f) && !on_plane_of_symmetry(one, f, contact.planes_of_symmetry());
             use(one);
           }
     }
@@ -85,18 +101,15 @@ namespace Touchstone
 
 
 
-    /** What this rank's cells have of the surfaces; and, of several ranks, the boxes around them.
-     */
-    std::pair<std::vector<SurfacePoint>, std::vector<Box>>
-    own_surfaces(const Solid &solid, const Vector &u, const std::set<unsigned int> &bodies)
+    /** What this rank's cells have of the surfaces: nodes, and centres of faces, for all nodes of a
+     * strip that is one face wide may lie on the sides of what it reaches into. */
+    std::vector<PointOfBody>
+    own_surfaces(const Contact &contact, const Vector &u, const std::set<unsigned int> &bodies)
     {
-      std::vector<SurfacePoint> points;
-      std::vector<bool>         done(solid.relevant.n_elements());
-      std::vector<Box>          boxes;
-      const bool                alone = Utilities::MPI::n_mpi_processes(solid.communicator) == 1;
-      for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
-        if (!alone)
-          boxes.push_back(box_of(cell));
+      const Solid             &solid = contact.solid_model();
+      std::vector<PointOfBody> points;
+      std::vector<bool>        done(solid.relevant.n_elements());
+      for_each_cell(contact, u, bodies, [&](const BodyCell &cell) {
         for (unsigned int f = 0; f < n_faces; ++f)
           if (cell.outer[f])
             {
@@ -113,7 +126,7 @@ namespace Touchstone
               points.push_back({cell.body, invalid_index, centre});
             }
       });
-      return {points, boxes};
+      return points;
     }
 
 
@@ -149,22 +162,27 @@ namespace Touchstone
 
 
     /** The points of all ranks that may lie in cells of this rank. */
-    std::vector<SurfacePoint>
-    points_around(std::vector<SurfacePoint> own,
-                  const std::vector<Box>   &boxes,
-                  const MPI_Comm            communicator)
+    std::vector<PointOfBody>
+    points_around(std::vector<PointOfBody>      own,
+                  const Contact                &contact,
+                  const Vector                 &u,
+                  const std::set<unsigned int> &bodies)
     {
+      const MPI_Comm communicator = contact.communicator();
       if (Utilities::MPI::n_mpi_processes(communicator) == 1)
         return own;
-      std::vector<Box> at_points;
-      for (const SurfacePoint &point : own)
+      std::vector<Box> boxes, at_points;
+      for_each_cell(contact, u, bodies, [&](const BodyCell &cell) {
+        boxes.push_back(box_of(cell));
+      });
+      for (const PointOfBody &point : own)
         at_points.push_back(Box({point.x, point.x}));
-      std::map<unsigned int, std::vector<SurfacePoint>> messages;
+      std::map<unsigned int, std::vector<PointOfBody>> messages;
       const auto ranks = near_ranks(boxes, at_points, communicator);
       for (std::size_t k = 0; k < own.size(); ++k)
         for (const unsigned int rank : ranks[k])
           messages[rank].push_back(own[k]);
-      std::vector<SurfacePoint> result;
+      std::vector<PointOfBody> result;
       for (const auto &[rank, points] : exchange_records(messages, communicator))
         result.insert(result.end(), points.begin(), points.end());
       return result;
@@ -174,10 +192,10 @@ namespace Touchstone
 
     /** Points within cells of this rank. */
     std::vector<BodyOverlap>
-    own_overlaps(const Solid                                           &solid,
+    own_overlaps(const Contact                                         &contact,
                  const Vector                                          &u,
                  const std::set<unsigned int>                          &bodies,
-                 const std::vector<SurfacePoint>                       &points,
+                 const std::vector<PointOfBody>                        &points,
                  const std::set<std::pair<unsigned int, unsigned int>> &left_out,
                  const double                                           least)
     {
@@ -186,11 +204,11 @@ namespace Touchstone
         places.emplace_back(points[k].x, k);
       const auto               tree = pack_rtree(places);
       std::vector<BodyOverlap> result;
-      for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
+      for_each_cell(contact, u, bodies, [&](const BodyCell &cell) {
         for (const auto &entry : tree | boost::geometry::index::adaptors::queried(
                                           boost::geometry::index::intersects(box_of(cell))))
           {
-            const SurfacePoint &point = points[entry.second];
+            const PointOfBody &point = points[entry.second];
             if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||
                 left_out.count(std::minmax(point.body, cell.body)) > 0)
               continue;
@@ -236,7 +254,18 @@ namespace Touchstone
                      const std::set<unsigned int> &bodies,
                      const double                  least)
   {
-    const Solid                                    &solid = contact.solid_model();
+    return points_in_bodies(contact, u, bodies, own_surfaces(contact, u, bodies), least);
+  }
+
+
+
+  std::vector<BodyOverlap>
+  points_in_bodies(const Contact                &contact,
+                   const Vector                 &u,
+                   const std::set<unsigned int> &bodies,
+                   std::vector<PointOfBody>      own,
+                   const double                  least)
+  {
     std::set<std::pair<unsigned int, unsigned int>> left_out;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p);
@@ -244,13 +273,11 @@ namespace Touchstone
           pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
         left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
 
-    auto                            surfaces = own_surfaces(solid, u, bodies);
-    const std::vector<SurfacePoint> points =
-      points_around(std::move(surfaces.first), surfaces.second, solid.communicator);
+    const std::vector<PointOfBody> points = points_around(std::move(own), contact, u, bodies);
 
     // Of each two bodies, in an order that does not depend on the partition.
     std::vector<BodyOverlap> all =
-      gather_all(own_overlaps(solid, u, bodies, points, left_out, least), solid.communicator);
+      gather_all(own_overlaps(contact, u, bodies, points, left_out, least), contact.communicator());
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);

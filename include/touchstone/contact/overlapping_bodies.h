@@ -52,6 +52,23 @@ namespace Touchstone
                      const std::set<unsigned int> &bodies,
                      double                        least = Tolerances::deep_in_body);
 
+  /** @brief A point of the surface of a body. */
+  struct PointOfBody
+  {
+    unsigned int body = 0;
+    /** First degree of freedom of a node, else invalid_index. */
+    Index              node = invalid_index;
+    dealii::Point<dim> x;
+  };
+
+  /** @brief The same of a choice of points. @param points Of this rank. Collective. */
+  std::vector<BodyOverlap>
+  points_in_bodies(const Contact                &contact,
+                   const Vector                 &u,
+                   const std::set<unsigned int> &bodies,
+                   std::vector<PointOfBody>      points,
+                   double                        least);
+
   /** @brief The same of all bodies, in words. Collective. */
   std::vector<std::string>
   overlapping_bodies(const Contact &contact, const Vector &u);

@@ -29,25 +29,10 @@ namespace Touchstone
     std::vector<SharpEdge>
     edges_at(const Surface &slave, const Index node)
     {
-      const auto around = slave.faces_around(node);
-      // Edges of degree 2 are curved.
-      if (around.front().first->degree > 1)
-        return {};
-      // Most nodes lie on smooth parts of a surface. What presses on an edge flattens it.
-      bool smooth = true;
-      for (const auto &[one, m] : around)
-        for (const auto &[other, l] : around)
-          {
-            const Tensor<1, dim> first  = reference_area_vector(*one, m),
-                                 second = reference_area_vector(*other, l);
-            smooth                      = smooth &&
-                     one->own_normals[m] * other->own_normals[l] > Tolerances::sharp_edge_cosine &&
-                     first * second > Tolerances::sharp_edge_cosine * first.norm() * second.norm();
-          }
-      if (smooth)
+      if (!EdgeOnEdge::at_sharp_edge(slave, node))
         return {};
       std::vector<const Face *> faces;
-      for (const auto &[face, m] : around)
+      for (const auto &[face, m] : slave.faces_around(node))
         faces.push_back(face);
       std::vector<SharpEdge> result = sharp_edges(faces, Tolerances::sharp_edge_cosine);
       result.erase(std::remove_if(result.begin(),
@@ -74,6 +59,28 @@ namespace Touchstone
              });
     }
   } // namespace
+
+
+
+  bool
+  EdgeOnEdge::at_sharp_edge(const Surface &slave, const Index node)
+  {
+    const auto around = slave.faces_around(node);
+    // Edges of degree 2 are curved.
+    if (around.front().first->degree > 1)
+      return false;
+    // Most nodes lie on smooth parts of a surface. What presses on an edge flattens it.
+    for (const auto &[one, m] : around)
+      for (const auto &[other, l] : around)
+        {
+          const Tensor<1, dim> first  = reference_area_vector(*one, m),
+                               second = reference_area_vector(*other, l);
+          if (one->own_normals[m] * other->own_normals[l] <= Tolerances::sharp_edge_cosine ||
+              first * second <= Tolerances::sharp_edge_cosine * first.norm() * second.norm())
+            return true;
+        }
+    return false;
+  }
 
 
 

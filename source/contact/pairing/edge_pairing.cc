@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/geometry/surface_cone.h>
 #include <touchstone/contact/pairing/edge_search.h>
+#include <touchstone/contact/pairing/nodes_on_edges.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
@@ -32,6 +33,9 @@ namespace Touchstone
       {
         for (std::size_t k = 0; k < n; ++k)
           numbers[input.slave->owned_nodes()[k].node] = k;
+        // Pointwise rows have the direction of edges already.
+        if (input.parameters->pairing.name != "pointwise")
+          on_edges.emplace(input);
       }
 
       unsigned int
@@ -45,7 +49,15 @@ namespace Touchstone
       {
         of_nodes->commit_positions(u);
         search.commit(&u);
+        if (on_edges)
+          on_edges->commit(u);
         step_begins = true;
+      }
+
+      void
+      rollback() override
+      {
+        of_nodes->rollback();
       }
 
       void
@@ -89,12 +101,16 @@ namespace Touchstone
       {
         SearchWork result = of_nodes->search_work();
         result += search.work();
+        if (on_edges)
+          result += on_edges->work();
         return result;
       }
 
     private:
       const std::shared_ptr<Pairing> of_nodes;
       EdgeSearch                     search;
+      /** Rows of nodes on parallel edges, where `of_nodes` does not make them. */
+      std::optional<NodesOnEdges> on_edges;
       /** Of slave nodes that this rank owns. */
       const std::size_t                      n;
       std::unordered_map<Index, std::size_t> numbers;
@@ -140,6 +156,8 @@ namespace Touchstone
     EdgePairing::update(const Vector &u, const double time, std::vector<ContactRow> &rows)
     {
       for_nodes(rows, [&](std::vector<ContactRow> &first) { of_nodes->update(u, time, first); });
+      if (on_edges)
+        on_edges->update(u, rows);
       if (step_begins)
         {
           std::vector<std::pair<Index, std::uint64_t>> in_contact;
@@ -267,8 +285,20 @@ namespace Touchstone
     void
     EdgePairing::differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows)
     {
-      for_nodes(rows,
-                [&](std::vector<ContactRow> &first) { of_nodes->differentiate(u, time, first); });
+      for_nodes(rows, [&](std::vector<ContactRow> &first) {
+        // The other pairing must not differentiate rows that are not its own any more.
+        std::vector<std::size_t> replaced;
+        for (std::size_t k = 0; on_edges && k < n; ++k)
+          if (first[k].was_active && on_edges->replaces(k))
+            replaced.push_back(k);
+        for (const std::size_t k : replaced)
+          first[k].was_active = false;
+        of_nodes->differentiate(u, time, first);
+        for (const std::size_t k : replaced)
+          first[k].was_active = true;
+        if (on_edges)
+          on_edges->differentiate(first);
+      });
       std::vector<const Face *> needed;
       for (std::size_t k = 0; k < n; ++k)
         if (rows[n + k].was_active && present[k] && present[k]->face())

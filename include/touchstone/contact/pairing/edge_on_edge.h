@@ -30,6 +30,11 @@ namespace Touchstone
     /** Derivatives of averaged normals by face, of Search::normal_derivatives(). */
     using OfNormals = std::unordered_map<const Face *, std::vector<NormalDerivative>>;
 
+    /** @brief Whether faces meet at a node of the slave surface, owned by this rank, with an angle
+     * between their normals as on sharp edges, now or in the reference state. */
+    static bool
+    at_sharp_edge(const Surface &slave, Index node);
+
     /** @brief The edge that a slave node stands on or is about to, in the last update of the
      * search.
      * @param node Of the slave surface, owned by this rank. @param size Of its faces, length. */

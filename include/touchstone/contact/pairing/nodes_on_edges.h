@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_pairing_nodes_on_edges_h
+#define touchstone_contact_pairing_nodes_on_edges_h
+
+#include <touchstone/contact/pairing/edge_on_edge.h>
+#include <touchstone/contact/pairing/pairing.h>
+
+#include <optional>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Gives slave nodes that stand on a parallel edge of the master the row of EdgeOnEdge, in
+   * place of that which a pairing has made of them: averages over the faces beside an edge do not
+   * have its direction (doc/theory.md 4.2, "Parallel edges").
+   */
+  class NodesOnEdges
+  {
+  public:
+    /** @brief Collective. */
+    explicit NodesOnEdges(const PairingInput &input);
+
+    /** @brief A step ends with the displacement @p u, with ghosts. */
+    void
+    commit(const Vector &u);
+
+    /** @brief Replace rows of nodes. @param rows Those of the owned slave nodes come first.
+     * Collective. */
+    void
+    update(const Vector &u, std::vector<ContactRow> &rows);
+
+    /** @brief Whether the row of a node has been replaced. */
+    bool
+    replaces(const std::size_t k) const
+    {
+      return edges[k].has_value();
+    }
+
+    /** @brief The derivatives of the replaced rows that are active. Collective. */
+    void
+    differentiate(std::vector<ContactRow> &rows);
+
+    SearchWork
+    work() const
+    {
+      return search.work();
+    }
+
+  private:
+    const PairingInput input;
+    Search             search;
+    /** Positions of the slave nodes at the start of the step. */
+    std::vector<dealii::Point<dim>> start;
+    /** What the nodes stand on since the last update. */
+    std::vector<std::optional<EdgeOnEdge>> edges;
+  };
+} // namespace Touchstone
+
+#endif
