@@ -28,9 +28,9 @@ namespace Touchstone
   void
   VtuSeries::write(PatchGroups &data, const unsigned int step, const double time)
   {
-    // Each group is a piece of its own in the file. Of 32,768 points the patches, the arrays and
+    // Each group is a piece of its own in the file. Of 8,192 points the patches, the arrays and
     // their text stay in the cache, and the file never is in memory as a whole.
-    constexpr std::size_t n_points = 1 << 15;
+    constexpr std::size_t n_points = 1 << 13;
     const auto            names    = data.get_dataset_names();
     const auto            ranges   = data.get_nonscalar_data_ranges();
     auto                  flags    = data.flags;
