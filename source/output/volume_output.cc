@@ -77,8 +77,9 @@ namespace Touchstone
       if (cell->is_locally_owned())
         {
           nodes->of_cell(cell, of_cell);
+          const double volume = cell->measure();
           for (const unsigned int node : of_cell)
-            node_volume.local_element(node) += cell->measure();
+            node_volume.local_element(node) += volume;
         }
     // Those of cells of other ranks.
     node_volume.compress(dealii::VectorOperation::add);
