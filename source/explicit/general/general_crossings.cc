@@ -157,9 +157,9 @@ namespace Touchstone
   void
   GeneralContact::keep_until(const OpenFaces &faces)
   {
-    if (candidates.face_pairs[faces.pair].inner.any())
-      return;
-    double     until = std::numeric_limits<double>::max();
+    double     until = candidates.face_pairs[faces.pair].inner.any()
+                         ? apart_inner[faces.pair].until
+                         : std::numeric_limits<double>::max();
     const auto least = [&](const ContactCandidates::ByFaces &by_faces,
                            const std::vector<Separation>    &known) {
       for (unsigned int i = by_faces.begin[faces.pair]; i < by_faces.begin[faces.pair + 1]; ++i)

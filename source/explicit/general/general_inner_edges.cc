@@ -36,34 +36,32 @@ namespace Touchstone
   void
   GeneralContact::check_inner_edges(const ContactCandidates::FacePair &pair, const OpenFaces &faces)
   {
-    const unsigned int one = pair.one, other = pair.other;
-    // What is known of each of three kinds of 16 pairs, and of the middles.
-    std::vector<Separation> &known = apart_inner[faces.pair];
-    if (known.empty())
-      known = separations_of_inner_edges(pair);
-    const auto far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
-    if (std::all_of(known.begin(), known.end(), far_apart))
+    InnerSeparations &apart     = apart_inner[faces.pair];
+    const auto        far_apart = [&](const double until) { return until > travelled + travels; };
+    if (far_apart(apart.until))
       return;
-    const bool of_one = moving.is_warped(one), of_other = moving.is_warped(other);
+    const unsigned int one = pair.one, other = pair.other;
+    const bool         of_one = moving.is_warped(one), of_other = moving.is_warped(other);
     if (!of_one && !of_other)
       return;
-    // Edges of both faces, and from their corners to the middles; their boxes only if nothing is
-    // known of a pair.
-    std::array<std::array<std::array<SurfacePoint, 2>, 8>, 2> edges;
-    for (unsigned int side = 0; side < 2; ++side)
-      for (unsigned int a = 0; a < 4; ++a)
-        {
-          const unsigned int face = side == 0 ? one : other;
-          edges[side][a]          = moving.ends_of(moving.corner(face, a).slot);
-          edges[side][4 + a]      = {{moving.corner(face, a), moving.middle(face)}};
-        }
+    // Each two of three kinds of 16 pairs, and the middles.
+    if (apart.each.empty())
+      apart.each = separations_of_inner_edges(pair);
+    // Edges of both faces, and from their corners to the middles.
+    const auto edge = [&](const unsigned int face, const unsigned int a) -> MovingSurface::Edge {
+      return a < 4 ? moving.ends_of(moving.corner(face, a).slot)
+                   : MovingSurface::Edge{{moving.corner(face, a), moving.middle(face)}};
+    };
+    // Their boxes only if nothing is known of a pair.
     std::array<std::array<MotionBox, 8>, 2> boxes;
     bool                                    boxed = false;
-    const auto apart = [&](const unsigned int e, const unsigned int f) {
+    const auto distance_of_boxes = [&](const unsigned int e, const unsigned int f) {
       for (unsigned int side = 0; side < 2 && !boxed; ++side)
         for (unsigned int a = 0; a < 8; ++a)
-          boxes[side][a] = MotionBox(moving.inner_edge(edges[side][a], false),
-                                     moving.inner_edge(edges[side][a], true));
+          {
+            const MovingSurface::Edge of = edge(side == 0 ? one : other, a);
+            boxes[side][a] = MotionBox(moving.inner_edge(of, false), moving.inner_edge(of, true));
+          }
       boxed = true;
       return boxes[0][e].distance(boxes[1][f]);
     };
@@ -71,19 +69,24 @@ namespace Touchstone
     for (unsigned int e = 0; e < 8; ++e)
       for (unsigned int f = e < 4 ? 4 : 0; f < 8; ++f)
         {
-          Separation &of = known[n++];
-          if ((e >= 4 && !of_one) || (f >= 4 && !of_other) || far_apart(of))
+          Separation &of = apart.each[n++];
+          if ((e >= 4 && !of_one) || (f >= 4 && !of_other) || far_apart(of.until))
             continue;
-          if (const double distance = of.known ? 0. : apart(e, f); distance > 0.)
+          const double distance = of.known ? 0. : distance_of_boxes(e, f);
+          if (distance > 0.)
             of.until = travelled + distance - reserve * faces.size;
           else
-            check_edges({{edges[0][e][0], edges[0][e][1], edges[1][f][0], edges[1][f][1]}},
-                        faces,
-                        of);
+            {
+              const MovingSurface::Edge first = edge(one, e), second = edge(other, f);
+              check_edges({{first[0], first[1], second[0], second[1]}}, faces, of);
+            }
         }
-    if (of_one && !far_apart(known[n]))
-      check_node(moving.middle(one), other, faces, known[n]);
-    if (of_other && !far_apart(known[n + 1]))
-      check_node(moving.middle(other), one, faces, known[n + 1]);
+    if (of_one && !far_apart(apart.each[n].until))
+      check_node(moving.middle(one), other, faces, apart.each[n]);
+    if (of_other && !far_apart(apart.each[n + 1].until))
+      check_node(moving.middle(other), one, faces, apart.each[n + 1]);
+    apart.until = std::numeric_limits<double>::max();
+    for (const Separation &of : apart.each)
+      apart.until = std::min(apart.until, of.until);
   }
 } // namespace Touchstone

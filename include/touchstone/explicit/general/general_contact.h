@@ -242,10 +242,16 @@ namespace Touchstone
        * free velocities. */
       std::array<unsigned int, 2> hopeless{};
     };
-    /** By pair of faces, by pair of a node and a face, and of edges; and by pair of faces, those of
-     * inner edges that have been looked at. */
-    std::vector<Separation>              apart_faces, apart_nodes, apart_edges;
-    std::vector<std::vector<Separation>> apart_inner;
+    /** By pair of faces, by pair of a node and a face, and of edges. */
+    std::vector<Separation> apart_faces, apart_nodes, apart_edges;
+    /** Inner edges of a pair of faces, once they have been looked at: each two of them, and up to
+     * where all of them stay apart. */
+    struct InnerSeparations
+    {
+      std::vector<Separation> each;
+      double                  until = -std::numeric_limits<double>::max();
+    };
+    std::vector<InnerSeparations> apart_inner;
     /** By pair of faces: up to where all that belongs to it stays apart. */
     TravelLimits face_limits;
     /** By pair of a node and a face: it has a row as it touches. */
