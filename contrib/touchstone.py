@@ -11,7 +11,7 @@ of bodies and contact surfaces.
     columns, units = run.probe("tip")
     for node in run.contact():            # of the last time; contact(2.0): of the nearest to 2
         node.position, node.pressure, node.gap
-    for piece in run.bodies():            # one for each rank
+    for piece in run.bodies():            # some for each rank, of 1,024 cells at most (degree 1)
         piece["position"], piece["displacement"], piece["von_mises"]
 
 Numbers are lists or tuples of floats; vectors and tensors of VTU files are flat, one after the other.

@@ -59,7 +59,7 @@ main(int argc, char **argv)
   const OutputFolder folder("folder_test/results", communicator);
   attempt("write", [&]() { folder.write_file_atomically("summary.json", "{}\n"); });
   attempt("pieces", [&]() {
-    folder.write_pieces_atomically("piece." + std::to_string(folder.rank), "piece\n");
+    folder.write_pieces_atomically("piece." + std::to_string(folder.rank), whole("piece\n"));
   });
 
   // The temporary file is a link to the device that is always full.

@@ -27,7 +27,7 @@ subsection Body lower
     set Type = box
     set Lower corner = 0, 0, 0
     set Upper corner = 1, 1, 1
-    set Cells = 2, 2, 2
+    set Cells = CELLS
   end
   subsection Material
     set Young modulus = 1000
@@ -64,10 +64,11 @@ end
 
 
   void
-  run(const std::string &degree, const MPI_Comm communicator)
+  run(const std::string &degree, const std::string &cells, const MPI_Comm communicator)
   {
     std::string scene_text = text;
     scene_text.replace(scene_text.find("DEGREE"), 6, degree);
+    scene_text.replace(scene_text.find("CELLS"), 5, cells);
     const Scene        scene(scene_text, "test.prm", {});
     const Forest       forest(scene.forest_input(), ".", communicator);
     const Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
@@ -142,7 +143,9 @@ int
 main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  run("1", MPI_COMM_WORLD);
-  run("2", MPI_COMM_WORLD);
+  run("1", "2, 2, 2", MPI_COMM_WORLD);
+  run("2", "2, 2, 2", MPI_COMM_WORLD);
+  // More cells than one piece of a file has.
+  run("1", "11, 11, 11", MPI_COMM_WORLD);
   return 0;
 }

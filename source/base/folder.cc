@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 /**
  * @file
@@ -54,8 +55,25 @@ namespace Touchstone
 
 
 
+  TextInParts
+  whole(std::string text)
+  {
+    // Empty when it is asked for again.
+    return [text = std::move(text)]() mutable { return std::exchange(text, {}); };
+  }
+
+
+
   void
   write_file_atomically(const std::string &path, const std::string &contents)
+  {
+    write_file_atomically(path, whole(contents));
+  }
+
+
+
+  void
+  write_file_atomically(const std::string &path, const TextInParts &next_part)
   {
     // Written under another name and renamed, which is atomic within a file system: readers see the
     // old file or the complete new one, also if the run dies in between.
@@ -63,14 +81,15 @@ namespace Touchstone
 
     errno = 0;
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    if (out)
+    for (std::string part; out && !(part = next_part()).empty();)
       {
-        out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+        errno = 0;
+        out.write(part.data(), static_cast<std::streamsize>(part.size()));
         // The stream buffers: a full disk shows only when it is flushed and closed.
         out.flush();
-        if (out)
-          out.close();
       }
+    if (out)
+      out.close();
     if (!out)
       {
         // errno must be read before close(), which may change it. The incomplete file is removed;
@@ -143,7 +162,7 @@ namespace Touchstone
 
 
   void
-  OutputFolder::write_pieces_atomically(const std::string &name, const std::string &contents) const
+  OutputFolder::write_pieces_atomically(const std::string &name, const TextInParts &contents) const
   {
     together([&]() { Touchstone::write_file_atomically(path(name), contents); });
   }

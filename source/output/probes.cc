@@ -35,7 +35,7 @@ namespace Touchstone
     }
 
     double
-    von_mises(const double *s)
+    von_mises_of(const double *s)
     {
       return std::sqrt(
         0.5 * (std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2)) +
@@ -226,7 +226,7 @@ namespace Touchstone
           text += all_digits(value) + ",";
         for (const double value : values)
           text += all_digits(value) + ",";
-        text += all_digits(von_mises(values.data() + dim)) + "\n";
+        text += all_digits(von_mises_of(values.data() + dim)) + "\n";
       };
     for (const Probe &probe : probes)
       {

@@ -26,11 +26,36 @@ namespace Touchstone
 
 
   void
-  VtuSeries::write(const dealii::DataOutInterface<3, 3> &data,
-                   const unsigned int                    step,
-                   const double                          time)
+  VtuSeries::write(PatchGroups &data, const unsigned int step, const double time)
   {
-    write_patches(data, step, time);
+    // Each group is a piece of its own in the file. Of 8,192 points the patches, the arrays and
+    // their text stay in the cache, and the file never is in memory as a whole.
+    constexpr std::size_t n_points = 1 << 13;
+    const auto            names    = data.get_dataset_names();
+    const auto            ranges   = data.get_nonscalar_data_ranges();
+    auto                  flags    = data.flags;
+    bool                  begun = false, ended = false;
+    const auto            next_part = [&]() -> std::string {
+      std::ostringstream part;
+      if (ended)
+        return "";
+      if (!begun)
+        dealii::DataOutBase::write_vtu_header(part, flags);
+      data.make_next(n_points / data.n_points_per_cell());
+      dealii::DataOutBase::write_vtu_main(data.get_patches(), names, ranges, flags, part);
+      // The time is said once.
+      flags.time  = dealii::DataOutBase::VtkFlags().time;
+      flags.cycle = dealii::DataOutBase::VtkFlags().cycle;
+      begun       = true;
+      ended       = data.finished();
+      if (ended)
+        dealii::DataOutBase::write_vtu_footer(part);
+      return part.str();
+    };
+    std::ostringstream record;
+    if (folder.rank == 0)
+      dealii::DataOutBase::write_pvtu_record(record, piece_names(step), names, ranges, flags);
+    write_texts(next_part, record.str(), step, time);
   }
 
 
@@ -65,13 +90,13 @@ namespace Touchstone
     data.write_vtu(piece);
     if (folder.rank == 0)
       data.write_pvtu_record(record, piece_names(step));
-    write_texts(piece.str(), record.str(), step, time);
+    write_texts(whole(piece.str()), record.str(), step, time);
   }
 
 
 
   void
-  VtuSeries::write_texts(const std::string &piece,
+  VtuSeries::write_texts(const TextInParts &piece,
                          const std::string &record,
                          const unsigned int step,
                          const double       time)

@@ -7,6 +7,7 @@
 #include <deal.II/grid/reference_cell.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <system_error>
 
@@ -153,11 +154,11 @@ namespace Touchstone
 
 
   void
-  XdmfSeries::write(const dealii::DataOutInterface<3, 3> &data,
-                    const unsigned int                    step,
-                    const double                          time)
+  XdmfSeries::write(PatchGroups &data, const unsigned int step, const double time)
   {
-    write_patches(data, step, time);
+    // deal.II's filter wants all of them.
+    data.make_next(std::numeric_limits<std::size_t>::max());
+    write_patches<3>(data, step, time);
   }
 
 

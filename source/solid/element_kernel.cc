@@ -137,15 +137,17 @@ namespace Touchstone
 
   /** Set the nodal displacements by which stresses are evaluated. The amplitudes of incompatible
    * modes are not dofs of the system; they follow from the nodal displacements by the condition
-   * that the cell is in equilibrium with respect to them, and so are recovered from the condensed
-   * stiffness. */
+   * that the cell is in equilibrium with respect to them, and so are recovered from their rows of
+   * the stiffness. */
   void
   ElementKernel::set_displacement(const std::vector<double> &u)
   {
     displacement = u;
     if (n_modes > 0)
       {
-        stiffness().recover_modes(displacement);
+        set_gradients(own, 0, 1);
+        own.compute_modes();
+        own.recover_modes(displacement);
       }
     mean_dilatation = 0.;
     if (type == ElementType::b_bar)

@@ -3,6 +3,8 @@
 #include <touchstone/base/vectorised.h>
 #include <touchstone/solid/element_stiffness.h>
 
+#include <algorithm>
+
 // The stiffness matrix of linear elastic cells, and the static condensation of incompatible modes
 // (doc/theory.md 2.1). Eight cells are computed at once, one in each lane of the SIMD registers,
 // since cells are independent of each other while the loops inside one cell are short.
@@ -47,7 +49,7 @@ namespace Touchstone
 
   template <unsigned int n_cells>
   inline __attribute__((always_inline)) void
-  ElementStiffness<n_cells>::compute_here()
+  ElementStiffness<n_cells>::compute_here(const unsigned int first)
   {
     using Values                 = typename Number<n_cells>::type;
     const Values *const weighted = reinterpret_cast<const Values *>(this->weighted.data());
@@ -60,7 +62,7 @@ namespace Touchstone
     // mean gradients instead.
     const double own = (b_bar ? 0. : bulk) - 2. / 3. * mu;
     for (unsigned int a = 0; a < n; a += dim)
-      for (unsigned int b = a; b < n; b += dim)
+      for (unsigned int b = std::max(a, first); b < n; b += dim)
         {
           // G_ab, column by column: one at a time is what fits into registers.
           Values g[dim][dim];
@@ -99,10 +101,20 @@ namespace Touchstone
         for (unsigned int i = 0; i < k; ++i)
           {
             const Values factor = inverse * row[i];
-            for (unsigned int j = i; j < k; ++j)
+            for (unsigned int j = std::max(i, first); j < k; ++j)
               matrix[n * i + j] -= factor * row[j];
           }
       }
+  }
+
+
+
+  template <unsigned int n_cells>
+  inline __attribute__((always_inline)) void
+  ElementStiffness<n_cells>::mirror()
+  {
+    using Values         = typename Number<n_cells>::type;
+    Values *const matrix = reinterpret_cast<Values *>(this->matrix.data());
     for (unsigned int i = 0; i < n_kept; ++i)
       for (unsigned int j = 0; j < i; ++j)
         matrix[n * i + j] = matrix[n * j + i];
@@ -115,7 +127,8 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   ElementStiffness<1>::compute()
   {
-    compute_here();
+    compute_here(0);
+    mirror();
   }
 
 
@@ -124,7 +137,17 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   ElementStiffness<8>::compute()
   {
-    compute_here();
+    compute_here(0);
+    mirror();
+  }
+
+
+
+  template <>
+  TOUCHSTONE_VECTORISED void
+  ElementStiffness<1>::compute_modes()
+  {
+    compute_here(n_kept);
   }
 
 

@@ -27,12 +27,24 @@ namespace Touchstone
     explicit OutputError(const std::string &message);
   };
 
+  /** @brief Gives the next part of a text each time that it is called, and nothing after the last:
+   * for files that need not be in memory as a whole. */
+  using TextInParts = std::function<std::string()>;
+
+  /** @brief A text of one part. */
+  TextInParts
+  whole(std::string text);
+
   /**
    * @brief Write a file such that its name always stands for a complete file:
    * write @p path + ".part" and rename it.
    *
    * Not collective. @throws OutputError if any byte could not be written.
    */
+  void
+  write_file_atomically(const std::string &path, const TextInParts &contents);
+
+  /** @brief The same for a text that is known as a whole. */
   void
   write_file_atomically(const std::string &path, const std::string &contents);
 
@@ -61,7 +73,7 @@ namespace Touchstone
     /** @brief Each rank writes a file of its own. Collective.
      * @throws OutputError */
     void
-    write_pieces_atomically(const std::string &name, const std::string &contents) const;
+    write_pieces_atomically(const std::string &name, const TextInParts &contents) const;
 
     /** @brief Run @p action on each rank, and throw on all what OutputError one
      * of them threw. Collective. @throws OutputError */

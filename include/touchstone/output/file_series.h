@@ -5,6 +5,7 @@
 
 #include <touchstone/base/folder.h>
 #include <touchstone/output/output_parameters.h>
+#include <touchstone/output/patch_groups.h>
 
 #include <deal.II/base/data_out_base.h>
 
@@ -36,10 +37,11 @@ namespace Touchstone
     virtual ~FileSeries() = default;
 
     /** @name Write the file of one step; its flags are set by the caller
-     * Solids, surfaces and clouds of points. Collective. @throws OutputError */
+     * Solids (of which no cell has had its turn), surfaces and clouds of points. Collective.
+     * @throws OutputError */
     /** @{ */
     virtual void
-    write(const dealii::DataOutInterface<3, 3> &data, unsigned int step, double time) = 0;
+    write(PatchGroups &data, unsigned int step, double time) = 0;
     virtual void
     write(const dealii::DataOutInterface<2, 3> &data, unsigned int step, double time) = 0;
     virtual void

@@ -4,20 +4,21 @@
 #define touchstone_output_volume_output_h
 
 #include <touchstone/output/file_series.h>
+#include <touchstone/output/node_numbers.h>
 #include <touchstone/output/volume_field.h>
 #include <touchstone/solid/solid.h>
 
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Touchstone
 {
+  class SolidPatches;
+
   /**
    * @brief Output of the bodies, solution.pvd, with all registered VolumeField classes.
    *
@@ -37,7 +38,7 @@ namespace Touchstone
     void
     reinit()
     {
-      node_dofs.clear();
+      nodes.reset();
     }
 
     /** @brief Write the file of one step.
@@ -65,63 +66,46 @@ namespace Touchstone
     }
 
   private:
-    using NodeField = dealii::LinearAlgebra::distributed::Vector<double>;
-
-    const Solid            &solid;
-    dealii::FE_Q<dim>       node_fe;
-    dealii::DoFHandler<dim> node_dofs;
-    /** By owned node, as node_dofs counts them: where it is among the owned nodes of the
-     * solid. */
-    std::vector<std::size_t> node_in_solid;
+    const Solid &solid;
+    /** Not known before there is a file to write, for many runs write none. */
+    std::optional<NodeNumbers> nodes;
     /** Sum of the volumes of the cells around each node. */
-    NodeField                   node_volume;
+    NodeNumbers::Field          node_volume;
     std::unique_ptr<FileSeries> files;
     /** Write stresses as they are in the cells, too. */
     const bool cell_values;
     /** By name, in the order of the file. */
     std::vector<std::pair<std::string, std::shared_ptr<VolumeField>>> fields;
 
-    /** @brief Number the nodes; not before there is a file to write, for many runs
-     * write none. */
+    /** @brief Number the nodes of a new mesh. Collective. */
     void
     number_nodes();
-
-    NodeField
-    make_node_field() const;
 
     /** @brief Averaged stress at the owned nodes of the solid; force per area. */
     std::vector<dealii::SymmetricTensor<2, dim>>
     node_stress(const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress) const;
 
-    /** @brief What is written into a file. */
-    struct Written;
-
-    /** @name Add a field to a file, with the rest of its numbers where the format has doubles */
-    /** @{ */
+    /** @brief Add a field to a file, with the rest of its numbers where the format has doubles. */
     void
     add_field(const std::string         &name,
               bool                       at_nodes,
               unsigned int               n_components,
               const std::vector<double> &values,
-              Written                   &written) const;
+              SolidPatches              &patches) const;
+
+    /** @brief Add its components, joined to a vector or tensor where the format has that. */
     void
-    add_scalar(const std::string         &name,
-               bool                       at_nodes,
-               const std::vector<double> &values,
-               Written                   &written) const;
-    void
-    add_vector(const std::string &name, const std::vector<double> &values, Written &written) const;
-    /** @} */
+    add_components(const std::string         &name,
+                   bool                       at_nodes,
+                   unsigned int               n_components,
+                   const std::vector<double> &values,
+                   SolidPatches              &patches) const;
 
     /** @brief Whether the components of this tensor are fields of their own. */
     bool
     has_components(const std::string &tensor) const;
 
-    /** @brief The values of a field of one component at nodes, with ghosts. */
-    NodeField
-    scalar_field(const std::vector<double> &values) const;
-
-    /** @brief Those of a vector, with ghosts. */
+    /** @brief A field over the dofs, with ghosts. */
     Vector
     vector_field(const std::vector<double> &values) const;
   };

@@ -26,7 +26,7 @@ namespace Touchstone
     VtuSeries(const OutputFolder &folder, const std::string &name);
 
     void
-    write(const dealii::DataOutInterface<3, 3> &data, unsigned int step, double time) override;
+    write(PatchGroups &data, unsigned int step, double time) override;
     void
     write(const dealii::DataOutInterface<2, 3> &data, unsigned int step, double time) override;
     void
@@ -58,7 +58,7 @@ namespace Touchstone
     piece_names(unsigned int step) const;
 
     void
-    write_texts(const std::string &piece,
+    write_texts(const TextInParts &piece,
                 const std::string &record,
                 unsigned int       step,
                 double             time);

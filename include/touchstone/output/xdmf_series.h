@@ -25,7 +25,7 @@ namespace Touchstone
     XdmfSeries(const OutputFolder &folder, const std::string &name);
 
     void
-    write(const dealii::DataOutInterface<3, 3> &data, unsigned int step, double time) override;
+    write(PatchGroups &data, unsigned int step, double time) override;
     void
     write(const dealii::DataOutInterface<2, 3> &data, unsigned int step, double time) override;
     void

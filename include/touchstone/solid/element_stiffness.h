@@ -53,6 +53,11 @@ namespace Touchstone
     void
     compute();
 
+    /** @brief Make of the stiffness of a single cell only what recover_modes() reads: half of the
+     * work. */
+    void
+    compute_modes();
+
     /** @brief Entry of the stiffness of cell @p k over the unknowns of the nodes, force per
      * length. */
     double
@@ -62,7 +67,7 @@ namespace Touchstone
     }
 
     /** @brief Append to the displacements of the nodes of a single cell those of the modes
-     * that belong to them. */
+     * that belong to them. After compute() or compute_modes(). */
     void
     recover_modes(std::vector<double> &displacement) const;
 
@@ -77,9 +82,16 @@ namespace Touchstone
     /** The row of a mode is that after elimination of the modes after it. */
     std::vector<double> matrix;
 
-    /** To be called from functions with versions for several processors. */
+    /** @name To be called from functions with versions for several processors */
+    /** @{ */
+    /** The columns from @p first on, on and above the diagonal, with the modes eliminated. */
     void
-    compute_here();
+    compute_here(unsigned int first);
+
+    /** Fill what is below the diagonal, over the unknowns of the nodes. */
+    void
+    mirror();
+    /** @} */
   };
 
   // Both numbers of cells have versions for several processors, which are no templates.
@@ -89,6 +101,9 @@ namespace Touchstone
   template <>
   void
   ElementStiffness<8>::compute();
+  template <>
+  void
+  ElementStiffness<1>::compute_modes();
   template <>
   void
   ElementStiffness<1>::recover_modes(std::vector<double> &displacement) const;
