@@ -16,16 +16,32 @@ namespace Touchstone
 
   namespace
   {
+    /** The corners of a face at the ends of its edges, in the order of the bits of
+     * Face::outer_edges. */
+    std::array<std::array<unsigned int, 2>, 4>
+    corners_of_edges(const Face &face)
+    {
+      const unsigned int p = face.degree, last = face.n_nodes() - 1;
+      return {{{{0, last - p}}, {{p, last}}, {{0, p}}, {{last - p, last}}}};
+    }
+
     /** An edge of a face with centre and normal of that face. `outer`: the surface ends there.
-     * `own`: the face is one of those whose edges are wanted. */
+     * `own`: the face is one of those whose edges are wanted. `plane`: of symmetry, on which the
+     * edge lies; zero if there is none. */
     struct Side
     {
       Point<dim>           a, b, centre;
       std::array<Index, 2> nodes;
       const Face          *face;
-      Tensor<1, dim>       normal;
+      Tensor<1, dim>       normal, plane;
       bool                 outer, own;
     };
+
+    Tensor<1, dim>
+    reflected(const Tensor<1, dim> &x, const Tensor<1, dim> &plane)
+    {
+      return x - 2. * (x * plane) * plane;
+    }
 
     /** The sides of edges by their two corner nodes. */
     using SidesOfEdges = std::map<std::pair<Index, Index>, std::vector<Side>>;
@@ -59,13 +75,11 @@ namespace Touchstone
     void
     add_sides(const Face &face, const bool own, SidesOfEdges &sides)
     {
-      // Corners in the order of the bits of Face::outer_edges.
-      const unsigned int p = face.degree, last = face.n_nodes() - 1;
-      const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
-      const FacePoint    middle        = evaluate(face, nullptr, {{0., 0.}});
+      const FacePoint middle  = evaluate(face, nullptr, {{0., 0.}});
+      const auto      corners = corners_of_edges(face);
       for (unsigned int e = 0; e < 4; ++e)
         {
-          const unsigned int i = corners[e][0], j = corners[e][1];
+          const auto [i, j] = corners[e];
           sides[std::minmax(face.nodes[i], face.nodes[j])].push_back(
             {face.position(i),
              face.position(j),
@@ -73,6 +87,7 @@ namespace Touchstone
              {{face.nodes[i], face.nodes[j]}},
              &face,
              middle.normal(),
+             plane_of_symmetry(face, e),
              (face.outer_edges >> e & 1u) != 0,
              own});
         }
@@ -93,13 +108,18 @@ namespace Touchstone
     {
       if (one.face->degree > 1)
         return false;
-      const unsigned int   m     = one.face->number_of(one.nodes[0]);
-      const Tensor<1, dim> first = reference_area_vector(*one.face, m),
-                           second =
-                             reference_area_vector(*two.face, two.face->number_of(one.nodes[0]));
-      Tensor<1, dim> to_centre;
+      const unsigned int m = one.face->number_of(one.nodes[0]);
+      Tensor<1, dim>     to_centre;
       for (unsigned int l = 0; l < two.face->n_nodes(); ++l)
         to_centre += 0.25 * (two.face->reference[l] - one.face->reference[m]);
+      const Tensor<1, dim> first = reference_area_vector(*one.face, m);
+      Tensor<1, dim> second = reference_area_vector(*two.face, two.face->number_of(one.nodes[0]));
+      // Of an edge on a plane of symmetry the second face is the image of the first.
+      if (one.face == two.face)
+        {
+          to_centre = reflected(to_centre, one.plane);
+          second    = reflected(second, one.plane);
+        }
       return to_centre * first < 0. && first * second < cosine * first.norm() * second.norm();
     }
 
@@ -114,30 +134,58 @@ namespace Touchstone
           // Each edge is reported by ranks that own a face there.
           if (std::none_of(list.begin(), list.end(), [](const Side &s) { return s.own; }))
             continue;
+          const auto is_sharp = [&](const Side &two) {
+            return sharp_now(one, two, cosine) || (as_made && sharp_as_made(one, two, cosine));
+          };
+          if (list.size() == 1 && one.plane.norm_square() > 0.)
+            {
+              Side image   = one;
+              image.centre = one.a + reflected(one.centre - one.a, one.plane);
+              image.normal = reflected(one.normal, one.plane);
+              if (is_sharp(image))
+                result.push_back({one.a,
+                                  one.b,
+                                  one.nodes,
+                                  one.face->key,
+                                  {{one.normal, image.normal}},
+                                  {{one.face, nullptr}}});
+            }
           // Where the surface ends the body may go on at any angle: the second normal lies in the
           // tangent plane of the face, which admits all directions up to a right angle.
-          if (list.size() == 1 && one.outer)
+          else if (list.size() == 1 && one.outer)
             result.push_back({one.a,
                               one.b,
                               one.nodes,
                               one.face->key,
                               {{one.normal, outward(one)}},
                               {{one.face, nullptr}}});
-          if (list.size() == 2)
-            {
-              const Side &two = list.back();
-              if (sharp_now(one, two, cosine) || (as_made && sharp_as_made(one, two, cosine)))
-                result.push_back({one.a,
-                                  one.b,
-                                  one.nodes,
-                                  std::min(one.face->key, two.face->key),
-                                  {{one.normal, two.normal}},
-                                  {{one.face, two.face}}});
-            }
+          else if (list.size() == 2 && is_sharp(list.back()))
+            result.push_back({one.a,
+                              one.b,
+                              one.nodes,
+                              std::min(one.face->key, list.back().face->key),
+                              {{one.normal, list.back().normal}},
+                              {{one.face, list.back().face}}});
         }
       return result;
     }
   } // namespace
+
+
+
+  Tensor<1, dim>
+  plane_of_symmetry(const Face &face, const unsigned int e)
+  {
+    if ((face.mirrored_edges >> e & 1u) == 0)
+      return {};
+    const auto [i, j]          = corners_of_edges(face)[e];
+    const Tensor<1, dim> edge  = face.position(j) - face.position(i),
+                         mean  = face.edge_normals[i] + face.edge_normals[j],
+                         plane = cross_product_3d(edge, mean);
+    const double length        = plane.norm();
+    return length > Tolerances::parallel_sine * edge.norm() * mean.norm() ? plane / length
+                                                                          : Tensor<1, dim>();
+  }
 
 
 

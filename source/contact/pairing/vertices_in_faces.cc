@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/face_geometry.h>
 #include <touchstone/contact/pairing/edge_search.h>
 #include <touchstone/contact/pairing/vertex_contact.h>
@@ -38,11 +39,18 @@ namespace Touchstone
       for (const auto &[face, m] : corners)
         {
           const unsigned int edges = (m & 1u ? 2u : 1u) | (m & 2u ? 8u : 4u);
-          if ((face->outer_edges & edges) != 0)
+          if ((face->ends() & edges) != 0)
             return true;
           normals.push_back(reference_area_vector(*face, m));
           mean += normals.back();
         }
+      // The sum with the images beyond planes of symmetry has no component across these.
+      for (const auto &[face, m] : corners)
+        for (const unsigned int e : {m & 1u, 2u + (m >> 1 & 1u)})
+          {
+            const Tensor<1, dim> plane = plane_of_symmetry(*face, e);
+            mean -= (mean * plane) * plane;
+          }
       return std::any_of(normals.begin(), normals.end(), [&](const Tensor<1, dim> &normal) {
         return normal * mean < Tolerances::sharp_node_cosine * normal.norm() * mean.norm();
       });

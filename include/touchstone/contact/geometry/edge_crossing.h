@@ -45,6 +45,13 @@ namespace Touchstone
   sharp_edges(const std::vector<const Face *> &faces,
               double                           cosine = Tolerances::touching_edge_cosine);
 
+  /** @brief The plane of symmetry that an edge of a face lies on.
+   * @param e The edge, as in the bits of Face::mirrored_edges.
+   * @return its unit normal; zero if the edge lies on none, or if the mean normals of its ends,
+   *         which lie in the plane as the edge does, are along the edge. */
+  dealii::Tensor<1, dim>
+  plane_of_symmetry(const Face &face, unsigned int e);
+
   /** @brief Two edges that can only touch each other. */
   struct EdgeCrossing
   {
