@@ -12,7 +12,7 @@
 #include <cstdio>
 
 // What does not turn with the surfaces of a pair: arches over facets and distances of tied pairs
-// (doc/theory.md 4.4).
+// (doc/theory.md 4.6).
 namespace Touchstone
 {
   using namespace dealii;

@@ -12,7 +12,7 @@ namespace Touchstone
 {
   /**
    * @brief Pairs whose surfaces have turned farther than what is measured on them can follow
-   * (doc/theory.md 4.4), each with place, size of the error and remedy, in words.
+   * (doc/theory.md 4.6), each with place, size of the error and remedy, in words.
    *
    * With exact surfaces the arch over a face, from the facet to the exact surface, keeps the
    * direction of the reference state, equation (8); so does the distance that a tied pair is placed

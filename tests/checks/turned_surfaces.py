@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs say where surfaces have turned farther than what is measured on them can follow (doc/theory.md 4.6):
+arches of exact surfaces over coarse faces, and the distance that a tied pair is placed with, whose forces also
+lose their moment. They say nothing where nothing has turned, and of facets, which turn."""
+
+from touchstone_test import check, finish, folder, run
+
+TUBE = """subsection Body {name}
+  subsection Geometry
+    set Type         = tube
+    set Inner radius = {inner}
+    set Outer radius = {outer}
+    set Angle        = 360
+    set End          = 0.5
+    set Cells        = 1, {cells}, 1
+  end
+  subsection Material
+    set Law           = neo-Hookean
+    set Young modulus = 1000
+  end
+end
+"""
+HELD = """subsection Contact pair {name}
+  set Slave body       = {body}
+  set Slave boundaries = {boundary}
+  set Obstacle         = tool
+  set Behaviour        = tied
+end
+"""
+# A press fit of two tubes, both held by one tool that turns by 60 degrees after t = 1.
+(folder / "fit.prm").write_text("""set Bodies        = inner, outer
+set Obstacles     = tool
+set Contact pairs = fit, bore, shell
+subsection Obstacle tool
+  set Shape        = reference point
+  set Rotate angle = 60 * max(t - 1, 0)
+end
+subsection Contact pair fit
+  set Slave body        = outer
+  set Slave boundaries  = inner
+  set Master body       = inner
+  set Master boundaries = outer
+end
+subsection Load stepping
+  set End time = 2
+  set Steps    = 4
+end
+""" + TUBE.format(name="inner", inner=1, outer=1.51, cells=12) + TUBE.format(name="outer", inner=1.5, outer=2, cells=9) +
+                                HELD.format(name="bore", body="inner", boundary="inner") +
+                                HELD.format(name="shell", body="outer", boundary="outer"), encoding="utf-8")
+BLOCK = """subsection Body {name}
+  {supports}
+  subsection Geometry
+    set Type         = box
+    set Lower corner = 0, 0, {bottom}
+    set Upper corner = 1, 1, {top}
+    set Cells        = 2, 2, 2
+  end
+  subsection Material
+    set Young modulus = 1e6
+  end
+end
+"""
+# A block that is tied to another one across a gap, and pushed.
+(folder / "gap.prm").write_text("set Bodies = lower, upper\nset Contact pairs = joint\n" +
+                                BLOCK.format(name="lower", supports="set Fixed = bottom", bottom=0, top=1) +
+                                BLOCK.format(name="upper", bottom=1.1, top=2.1,
+                                             supports="""set Boundary conditions = top
+  subsection Boundary top
+    set Traction x = 1
+  end""") + """subsection Contact pair joint
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top
+  set Behaviour         = tied
+end
+""", encoding="utf-8")
+
+TIED, TURNED, MOMENT = {"Contact pair fit/Behaviour": "tied"}, "has turned by 60", "without their moment: 0.1 is"
+FACETED = {"Contact pair fit/Contact geometry": "faceted", "Contact pair fit/Master normal": "smoothed"}
+for name, scene, settings, ranks, words in (
+        ("fit", "fit", {}, 1, TURNED), ("fit on two ranks", "fit", {}, 2, TURNED),
+        ("fit at rest", "fit", {"Load stepping/End time": 1, "Load stepping/Steps": 1}, 1, ""),
+        ("fit of facets", "fit", FACETED, 1, ""), ("tied", "fit", TIED, 1, TURNED),
+        ("gap", "gap", {}, 1, MOMENT), ("gap on two ranks", "gap", {}, 2, MOMENT)):
+    told = [text for text in run(name.replace(" ", "_"), folder / f"{scene}.prm", settings, ranks).summary["warnings"]
+            if "turned" in text or "moment" in text]
+    check(len(told) == (words != "") and all(words in text for text in told), f"{name}: {told}")
+finish()
