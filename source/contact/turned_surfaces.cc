@@ -19,7 +19,7 @@ namespace Touchstone
 
   namespace
   {
-    /** Errors that are told of: of the gap and, with friction, of a place on the surface, relative
+    /** Errors that are reported: of the gap and, with friction, of a place on the surface, relative
      * to the size of the face; of the distance that a tied pair keeps, in the same way; and of the
      * moment of its forces, relative to these times the size of faces. */
     constexpr double of_gap = 2e-4, of_place = 5e-3, of_distance = 1e-3, of_moment = 1e-2;
@@ -28,7 +28,7 @@ namespace Touchstone
      * length that has not. The largest first, of equal ones that with the largest coordinates. */
     struct Error
     {
-      /** Relative to what is told of. */
+      /** Relative to the error that is reported. */
       double     part = 0.;
       double     size = 0., length = 0., angle = 0.;
       Point<dim> x;
