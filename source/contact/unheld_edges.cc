@@ -87,14 +87,10 @@ namespace Touchstone
     {
       double result = 0.;
       for (const Face &face : surface.owned_faces())
-        {
-          const unsigned int p = face.degree, last = face.n_nodes() - 1;
-          const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
-          for (const auto &[a, b] : corners)
-            result = std::max(result,
-                              0.125 * (face.normals[b] - face.normals[a]) *
-                                (face.position(b) - face.position(a)));
-        }
+        for (const auto &[a, b] : corners_of_edges(face))
+          result = std::max(result,
+                            0.125 * (face.normals[b] - face.normals[a]) *
+                              (face.position(b) - face.position(a)));
       return Utilities::MPI::max(result, contact.communicator());
     }
 

@@ -16,15 +16,6 @@ namespace Touchstone
 
   namespace
   {
-    /** The corners of a face at the ends of its edges, in the order of the bits of
-     * Face::outer_edges. */
-    std::array<std::array<unsigned int, 2>, 4>
-    corners_of_edges(const Face &face)
-    {
-      const unsigned int p = face.degree, last = face.n_nodes() - 1;
-      return {{{{0, last - p}}, {{p, last}}, {{0, p}}, {{last - p, last}}}};
-    }
-
     /** An edge of a face with centre and normal of that face. `outer`: the surface ends there.
      * `own`: the face is one of those whose edges are wanted. `plane`: of symmetry, on which the
      * edge lies; zero if there is none. */
@@ -170,6 +161,15 @@ namespace Touchstone
       return result;
     }
   } // namespace
+
+
+
+  std::array<std::array<unsigned int, 2>, 4>
+  corners_of_edges(const Face &face)
+  {
+    const unsigned int p = face.degree, last = face.n_nodes() - 1;
+    return {{{{0, last - p}}, {{p, last}}, {{0, p}}, {{last - p, last}}}};
+  }
 
 
 

@@ -45,6 +45,11 @@ namespace Touchstone
   sharp_edges(const std::vector<const Face *> &faces,
               double                           cosine = Tolerances::touching_edge_cosine);
 
+  /** @brief The corners of a face at the ends of its edges, as numbers of its nodes, in the order
+   * of the bits of Face::outer_edges. */
+  std::array<std::array<unsigned int, 2>, 4>
+  corners_of_edges(const Face &face);
+
   /** @brief The plane of symmetry that an edge of a face lies on.
    * @param e The edge, as in the bits of Face::mirrored_edges.
    * @return its unit normal; zero if the edge lies on none, or if the mean normals of its ends,
