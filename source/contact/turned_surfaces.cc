@@ -11,18 +11,16 @@
 #include <cmath>
 #include <cstdio>
 
-// What does not turn with the surfaces of a pair: arches over facets and distances of tied pairs
-// (doc/theory.md 4.6).
+// What does not turn with the surfaces of a pair: distances of tied pairs (doc/theory.md 4.6).
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Errors that are reported: of the gap and, with friction, of a place on the surface, relative
-     * to the size of the face; of the distance that a tied pair keeps, in the same way; and of the
-     * moment of its forces, relative to these times the size of faces. */
-    constexpr double of_gap = 2e-4, of_place = 5e-3, of_distance = 1e-3, of_moment = 1e-2;
+    /** Errors that are reported: of the distance that a tied pair keeps, relative to the size of the
+     * face, and of the moment of its forces, relative to these times the size of faces. */
+    constexpr double of_distance = 1e-3, of_moment = 1e-2;
 
     /** An error, length, at a place, with the angle by which the surface has turned there and the
      * length that has not. The largest first, of equal ones that with the largest coordinates. */
@@ -104,59 +102,6 @@ namespace Touchstone
 
 
 
-    /** Marks the nodes of rows of a pair that carry a force, also those of other ranks: their first
-     * dofs are not zero. Collective. */
-    Vector
-    loaded_nodes(const Contact &contact, const ContactPair &pair)
-    {
-      std::vector<Index> dofs;
-      for (const ContactRow &row : pair.rows())
-        if (row.has_partner && contact.state(row).force.norm() > 0.)
-          {
-            dofs.push_back(dim * row.slave);
-            for (const StencilEntry &entry : row.stencil)
-              dofs.push_back(dim * entry.node);
-          }
-      Vector result = contact.solid_model().zero_vector();
-      result.add(dofs, std::vector<double>(dofs.size(), 1.));
-      result.compress(VectorOperation::add);
-      return contact.with_ghosts(result);
-    }
-
-    /** The largest error of the arches over the faces of a surface that carry a force. */
-    Error
-    error_of_arches(const Surface &surface, const Vector &loaded, const bool friction)
-    {
-      Error worst;
-      for (const Face &face : surface.owned_faces())
-        {
-          const AnalyticSurface *const exact = surface.exact_surface(face);
-          if (exact == nullptr ||
-              std::none_of(face.nodes.begin(),
-                           face.nodes.begin() + face.n_nodes(),
-                           [&](const Index node) { return loaded(dim * node) != 0.; }))
-            continue;
-          const Face           reference = MeasuredFace::in_reference(face);
-          const FacePoint      middle    = evaluate(face, nullptr, {{0., 0.}});
-          const Tensor<2, dim> turn      = rotation(face);
-          const double         size =
-            2. * std::sqrt(cross_product_3d(middle.tangents[0], middle.tangents[1]).norm());
-          for (const std::array<double, 2> &xi : std::array<std::array<double, 2>, 5>{
-                 {{{0., 0.}}, {{-1., 0.}}, {{1., 0.}}, {{0., -1.}}, {{0., 1.}}}})
-            {
-              const Point<dim>     facet = evaluate(reference, nullptr, xi).x;
-              const Tensor<1, dim> arch = exact->project(facet) - facet, error = missed(turn, arch);
-              const double         normal = std::abs(error * middle.normal()), along = error.norm();
-              const double         part =
-                std::max(normal / of_gap, friction ? along / of_place : 0.) / size;
-              const Error here{part, friction ? along : normal, arch.norm(), angle(turn), middle.x};
-              if (here > worst)
-                worst = here;
-            }
-        }
-      return worst;
-    }
-
     std::string
     described(const Error &error)
     {
@@ -178,30 +123,6 @@ namespace Touchstone
       std::snprintf(text, sizeof(text), "%.3g", value);
       return text;
     }
-
-    void
-    tell_of_arches(const Contact &contact, const ContactPair &pair, std::vector<std::string> &told)
-    {
-      const auto  &rows     = pair.rows();
-      const bool   friction = std::any_of(rows.begin(), rows.end(), [](const ContactRow &row) {
-        return row.friction != nullptr;
-      });
-      const Vector loaded   = loaded_nodes(contact, pair);
-      const Error  worst    = largest(std::max(error_of_arches(pair.slave(), loaded, friction),
-                                           error_of_arches(*pair.master(), loaded, friction),
-                                           [](const Error &a, const Error &b) { return b > a; }),
-                                  contact.communicator());
-      if (worst.part == 0.)
-        return;
-      told.push_back("contact pair '" + pair.parameters().name + "': " + described(worst) +
-                     ", but the exact surface over its faces, whose arches are up to " +
-                     number(worst.length) + " high, does not turn with them: gaps" +
-                     (friction ? " and slips" : "") + " are off by up to " + number(worst.size) +
-                     ". Use 'Contact geometry = faceted' with 'Master normal = smoothed', which "
-                     "turn, or a finer mesh");
-    }
-
-
 
     /** Reference positions of the nodes of a pair, by dof, with those of the stencils of its rows.
      * Collective. */
@@ -301,12 +222,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
-        if (!pair.master())
-          continue;
-        if (pair.tied())
+        if (pair.master() && pair.tied())
           tell_of_distance(contact, pair, result);
-        else if (!pair.small_sliding())
-          tell_of_arches(contact, pair, result);
       }
     return result;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/contact/geometry/face.h>
+#include <touchstone/contact/geometry/facet_rotation.h>
 
 #include <cmath>
 
@@ -145,27 +145,32 @@ namespace Touchstone
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes)
   {
-    FacePoint      result;
-    Point<dim>     reference;
-    Tensor<1, dim> displacement;
-    // Reference position, its tangents, and the displacement apart, as only the first two are
-    // projected.
+    FacePoint result;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
-        reference += shapes.value[m] * face.reference[m];
-        displacement += shapes.value[m] * face.displacement[m];
+        result.x += shapes.value[m] * face.reference[m];
         for (unsigned int a = 0; a < 2; ++a)
           result.tangents[a] += shapes.gradient[m][a] * face.reference[m];
       }
-    // x(xi) = P(sum N_m X_m) + sum N_m u_m, equation (8): only the reference position is projected
-    // onto the exact surface; the projection maps its tangents by grad P. Displacements are added
-    // after that, without projection.
+    // x(xi) = R P(sum N_m X_m) + sum N_m (x_m - R X_m), equation (8): only the reference position
+    // is projected onto the exact surface, the projection maps its tangents by grad P, and both
+    // turn with the facet. What nodes have moved apart from that is added after it, without
+    // projection.
+    auto moved = face.displacement;
     if (exact)
-      reference = exact->project_with(reference, result.tangents);
+      {
+        const Tensor<2, dim> rotation = facet_rotation(face);
+        result.x = Point<dim>(rotation * exact->project_with(result.x, result.tangents));
+        for (Tensor<1, dim> &tangent : result.tangents)
+          tangent = rotation * tangent;
+        moved = relative_displacement(face, rotation);
+      }
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      for (unsigned int a = 0; a < 2; ++a)
-        result.tangents[a] += shapes.gradient[m][a] * face.displacement[m];
-    result.x = reference + displacement;
+      {
+        result.x += shapes.value[m] * moved[m];
+        for (unsigned int a = 0; a < 2; ++a)
+          result.tangents[a] += shapes.gradient[m][a] * moved[m];
+      }
     return result;
   }
 } // namespace Touchstone

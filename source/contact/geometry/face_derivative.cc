@@ -47,6 +47,36 @@ namespace Touchstone
 
   namespace
   {
+    /** Derivative of a point or a tangent of a face by the positions of its nodes.
+     * @param value The point or tangent, that of the facet and that of the arch over it.
+     * @param weights Of the nodes in that of the facet.
+     * @param turn facet_rotation_derivative(), null where there is no arch. */
+    NodeMatrices
+    derivative_on_face(const Face                                &face,
+                       const Tensor<1, dim>                      &value,
+                       const std::array<double, Face::max_nodes> &weights,
+                       const NodeMatrices                        *turn)
+    {
+      NodeMatrices   result;
+      Tensor<2, dim> by_turn;
+      if (turn)
+        {
+          // Equation (8): sum w_m x_m + R a, where a motion turns R a by W_m dx_m x R a.
+          Tensor<1, dim> arch = value;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            arch -= weights[m] * face.position(m);
+          by_turn = -1. * cross_matrix(arch);
+        }
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          if (turn)
+            result[m] = by_turn * (*turn)[m];
+          for (unsigned int d = 0; d < dim; ++d)
+            result[m][d][d] += weights[m];
+        }
+      return result;
+    }
+
     /** Derivative of the unit normal with respect to the two tangents. */
     std::array<Tensor<2, dim>, 2>
     own_normal_derivative(const FacePoint &point)
@@ -61,6 +91,25 @@ namespace Touchstone
 
 
 
+  std::array<NodeMatrices, 2>
+  tangent_derivatives(const Face                          &face,
+                      const FaceShapes                    &shapes,
+                      const std::array<Tensor<1, dim>, 2> &tangents,
+                      const NodeMatrices                  *turn)
+  {
+    std::array<NodeMatrices, 2> result;
+    for (unsigned int a = 0; a < 2; ++a)
+      {
+        std::array<double, Face::max_nodes> weights;
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          weights[m] = shapes.gradient[m][a];
+        result[a] = derivative_on_face(face, tangents[a], weights, turn);
+      }
+    return result;
+  }
+
+
+
   FaceDifferentiator::FaceDifferentiator(const FaceGeometry &geometry)
     : geometry(geometry)
   {
@@ -69,7 +118,9 @@ namespace Touchstone
     // jumps between averaged and own normals at the nodes.
     if (geometry.smooth())
       patch = std::make_unique<GregoryPatch::Derivative>(GregoryPatch::differentiate(face));
-    else if (geometry.interpolates_normals() && geometry.exact_surface())
+    else if (geometry.exact_surface())
+      turn = std::make_unique<NodeMatrices>(facet_rotation_derivative(face));
+    if (geometry.interpolates_normals() && geometry.exact_surface())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
           // On an exact surface n = own normal + sum N_m (n_m - own normal at m), so the own
@@ -79,9 +130,9 @@ namespace Touchstone
           const FaceShapes shapes(face.degree, xi);
           const auto       by_tangents = own_normal_derivative(point);
           jumps[m]                     = face.normals[m] - point.normal();
+          const auto tangents = tangent_derivatives(face, shapes, point.tangents, turn.get());
           for (unsigned int k = 0; k < face.n_nodes(); ++k)
-            own[m][k] =
-              shapes.gradient[k][0] * by_tangents[0] + shapes.gradient[k][1] * by_tangents[1];
+            own[m][k] = by_tangents[0] * tangents[0][k] + by_tangents[1] * tangents[1][k];
         }
   }
 
@@ -91,17 +142,13 @@ namespace Touchstone
   FaceDifferentiator::differentiate_position(FaceDerivative              &result,
                                              const std::array<double, 2> &xi) const
   {
-    const FaceShapes    &shapes = result.shapes;
-    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    const FaceShapes &shapes = result.shapes;
+    const Face       &face   = geometry.face();
     if (!patch)
       {
-        // On an exact surface, too, only displacements change.
-        for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
-          {
-            result.x_position[m] = shapes.value[m] * identity;
-            for (unsigned int a = 0; a < 2; ++a)
-              result.tangent_position[a][m] = shapes.gradient[m][a] * identity;
-          }
+        result.x_position = derivative_on_face(face, result.point.x, shapes.value, turn.get());
+        result.tangent_position =
+          tangent_derivatives(face, shapes, result.point.tangents, turn.get());
         return;
       }
     // The point is linear in the control points.
@@ -132,13 +179,14 @@ namespace Touchstone
       result.normal_xi[b] = by_tangents[0] * second[b] + by_tangents[1] * second[b + 1];
     for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
       for (unsigned int a = 0; a < 2; ++a)
-        if (patch)
+        if (!patch && !turn)
+          result.normal_position[m] += result.shapes.gradient[m][a] * by_tangents[a];
+        else
           {
             result.normal_position[m] += by_tangents[a] * result.tangent_position[a][m];
-            result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
+            if (patch)
+              result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
           }
-        else
-          result.normal_position[m] += result.shapes.gradient[m][a] * by_tangents[a];
   }
 
 
@@ -223,8 +271,7 @@ namespace Touchstone
   FacePosition
   FaceDifferentiator::position(const std::array<double, 2> &xi) const
   {
-    const Face          &face = geometry.face();
-    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    const Face &face = geometry.face();
     // Position alone: all that the slave side of a gap needs, as the normal is that of the master.
     FacePosition result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
     if (patch)
@@ -235,8 +282,7 @@ namespace Touchstone
             (m < 4 ? result.x_position : result.x_normal)[m % 4] += basis.value[k] * (*patch)[k][m];
       }
     else
-      for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        result.x_position[m] = result.shapes.value[m] * identity;
+      result.x_position = derivative_on_face(face, result.point.x, result.shapes.value, turn.get());
     return result;
   }
 

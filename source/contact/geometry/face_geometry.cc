@@ -21,14 +21,24 @@ namespace Touchstone
   {
     // Where the exact surface is known a patch would only approximate it.
     if (kind == MasterNormal::smoothed && exact == nullptr)
-      patch.emplace(face);
-    else if (face.degree == 1)
+      {
+        patch.emplace(face);
+        return;
+      }
+    if (exact)
+      {
+        rotation = facet_rotation(face);
+        moved    = relative_displacement(face, rotation);
+      }
+    else
+      moved = face.displacement;
+    if (face.degree == 1)
       {
         const auto components = [](const auto &values) {
           return [&values](const unsigned int m, const unsigned int d) { return values[m][d]; };
         };
         reference    = Bilinear<dim>(components(face.reference));
-        displacement = Bilinear<dim>(components(face.displacement));
+        displacement = Bilinear<dim>(components(moved));
       }
   }
 
@@ -43,16 +53,20 @@ namespace Touchstone
     if (data.degree > 1)
       return Touchstone::evaluate(data, exact, xi);
     // Bilinear: reference position and displacement are evaluated apart, as only the former is
-    // projected onto the exact surface.
+    // projected onto the exact surface and turned.
     FacePoint                     point;
     Tensor<1, dim>                u;
     std::array<Tensor<1, dim>, 2> du;
     reference.evaluate(xi, point.x, point.tangents);
     displacement.evaluate(xi, u, du);
-    // Project the reference position and map its tangents before the displacement is added:
-    // equation (8) of doc/theory.md 4.
+    // Project the reference position, map its tangents and turn both before the displacement is
+    // added: equation (8) of doc/theory.md 4.
     if (exact)
-      point.x = exact->project_with(point.x, point.tangents);
+      {
+        point.x = Point<dim>(rotation * exact->project_with(point.x, point.tangents));
+        for (Tensor<1, dim> &tangent : point.tangents)
+          tangent = rotation * tangent;
+      }
     point.x += u;
     for (unsigned int a = 0; a < 2; ++a)
       point.tangents[a] += du[a];
@@ -77,9 +91,9 @@ namespace Touchstone
       for (unsigned int m = 0; m < data.n_nodes(); ++m)
         {
           x += shapes.value[m] * data.reference[m];
-          u += shapes.value[m] * data.displacement[m];
+          u += shapes.value[m] * moved[m];
         }
-    return (exact ? exact->project(x) : x) + u;
+    return (exact ? Point<dim>(rotation * exact->project(x)) : x) + u;
   }
 
 
@@ -96,7 +110,7 @@ namespace Touchstone
       for (unsigned int a = 0; a < 3; ++a)
         {
           of_reference[a] += hessians[m][a] * data.reference[m];
-          result[a] += hessians[m][a] * data.displacement[m];
+          result[a] += hessians[m][a] * moved[m];
         }
     if (exact)
       {
@@ -121,11 +135,9 @@ namespace Touchstone
                       (2. * step);
         // The mixed derivative from one order of differentiation only; both agree up to the error
         // of the difference.
-        result[0] += change[0] * t[0];
-        result[1] += change[1] * t[0];
-        result[2] += change[1] * t[1];
+        const Tensor<1, dim> curved[3] = {change[0] * t[0], change[1] * t[0], change[1] * t[1]};
         for (unsigned int a = 0; a < 3; ++a)
-          result[a] += gradient * of_reference[a];
+          result[a] += rotation * (curved[a] + gradient * of_reference[a]);
       }
     else
       for (unsigned int a = 0; a < 3; ++a)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/facet_rotation.h>
 #include <touchstone/contact/geometry/surface.h>
 
 #include <algorithm>
@@ -91,19 +92,29 @@ namespace Touchstone
     auto                    tangents = reference_tangents.begin();
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
-        for (unsigned int m = 0; m < face.n_nodes(); ++m, ++tangents)
-          {
-            // All faces are of one degree.
-            if (at_nodes.size() == m)
-              at_nodes.emplace_back(face.degree, node_coordinates(face, m));
-            auto t = *tangents;
-            for (unsigned int l = 0; l < face.n_nodes(); ++l)
+        {
+          // Equation (8), without projections: those of the reference state are known.
+          const bool           turns    = exact_surface(face) != nullptr;
+          const Tensor<2, dim> rotation = turns ? facet_rotation(face) : Tensor<2, dim>();
+          const auto moved = turns ? relative_displacement(face, rotation) : face.displacement;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m, ++tangents)
+            {
+              // All faces are of one degree.
+              if (at_nodes.size() == m)
+                at_nodes.emplace_back(face.degree, node_coordinates(face, m));
+              auto t = *tangents;
               for (unsigned int a = 0; a < 2; ++a)
-                t[a] += at_nodes[m].gradient[l][a] * face.displacement[l];
-            face.normals[m]     = area_vector(t);
-            const double length = face.normals[m].norm();
-            face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
-          }
+                {
+                  if (turns)
+                    t[a] = rotation * t[a];
+                  for (unsigned int l = 0; l < face.n_nodes(); ++l)
+                    t[a] += at_nodes[m].gradient[l][a] * moved[l];
+                }
+              face.normals[m]     = area_vector(t);
+              const double length = face.normals[m].norm();
+              face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
+            }
+        }
     for (NodeOfFaces &node : surface_nodes)
       average_normals(node);
   }
@@ -204,11 +215,14 @@ namespace Touchstone
         // d (t_0 x t_1), where the tangents are linear in the displacements.
         const Tensor<2, dim> by_first  = -1. * (weight * cross_matrix(t[1])),
                              by_second = weight * cross_matrix(t[0]);
-        const FaceShapes shapes(face->degree, node_coordinates(*face, m));
+        const FaceShapes   shapes(face->degree, node_coordinates(*face, m));
+        const bool         turns = exact_surface(*face) != nullptr;
+        const NodeMatrices turn  = turns ? facet_rotation_derivative(*face) : NodeMatrices();
+        const auto by_nodes      = tangent_derivatives(*face, shapes, t, turns ? &turn : nullptr);
         for (unsigned int l = 0; l < face->n_nodes(); ++l)
           {
-            const auto &gradient = shapes.gradient[l];
-            if (gradient[0] == 0. && gradient[1] == 0.)
+            // A node that is not on a line of the mesh through this one does not turn its facet.
+            if (by_nodes[0][l].norm_square() + by_nodes[1][l].norm_square() == 0.)
               continue;
             const Index node  = face->nodes[l];
             auto        entry = std::find_if(result.begin(), result.end(), [node](const auto &e) {
@@ -217,7 +231,7 @@ namespace Touchstone
             if (entry == result.end())
               entry = result.insert(entry, {node, Tensor<2, dim>()});
             // A node of several of these faces gets one entry.
-            entry->second += gradient[0] * by_first + gradient[1] * by_second;
+            entry->second += by_first * by_nodes[0][l] + by_second * by_nodes[1][l];
           }
       }
     const Tensor<2, dim> normalised = normalisation_derivative(sum);

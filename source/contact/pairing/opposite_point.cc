@@ -83,10 +83,11 @@ namespace Touchstone
   bool
   differentiate_opposite_point(const FaceGeometry        &slave,
                                const FacePosition        &on_slave,
-                               const FaceGeometry        &master,
+                               const FaceDifferentiator  &master_face,
                                OverlapPointDerivative<n> &point)
   {
-    const Tensor<1, dim> plane = plane_normal(slave.face());
+    const FaceGeometry  &master = master_face.geometry;
+    const Tensor<1, dim> plane  = plane_normal(slave.face());
     FacePoint            on_master;
     if (!find_opposite_point(slave, on_slave.point.x, master, plane, point.master, on_master))
       return false;
@@ -94,10 +95,10 @@ namespace Touchstone
       return true;
     // x_m - x_s = s zeta: t_a dxi_a = dx_s - dx_m|_xi + s dzeta + ds zeta, and b_a is perpendicular
     // to zeta.
-    const auto       b        = inverse_directions(on_master, plane);
-    const double     s        = (on_master.x - on_slave.point.x) * plane;
-    const auto       by_slave = plane_normal_derivatives(slave.face());
-    const FaceShapes shapes(master.face().degree, point.master);
+    const auto   b         = inverse_directions(on_master, plane);
+    const double s         = (on_master.x - on_slave.point.x) * plane;
+    const auto   by_slave  = plane_normal_derivatives(slave.face());
+    const auto   by_master = master_face.position(point.master).x_position;
     for (unsigned int a = 0; a < 2; ++a)
       {
         const double along[2] = {b[a] * on_slave.point.tangents[0],
@@ -106,11 +107,12 @@ namespace Touchstone
           point.d_master[a][v] = along[0] * point.d_slave[0][v] + along[1] * point.d_slave[1][v];
         for (unsigned int m = 0; m < n; ++m)
           {
-            const Tensor<1, dim> of_slave = b[a] * (on_slave.x_position[m] + s * by_slave[m]);
+            const Tensor<1, dim> of_slave  = b[a] * (on_slave.x_position[m] + s * by_slave[m]),
+                                 of_master = b[a] * by_master[m];
             for (unsigned int e = 0; e < dim; ++e)
               {
                 point.d_master[a][dim * m + e] += of_slave[e];
-                point.d_master[a][dim * (n + m) + e] -= shapes.value[m] * b[a][e];
+                point.d_master[a][dim * (n + m) + e] -= of_master[e];
               }
           }
       }
@@ -122,11 +124,11 @@ namespace Touchstone
   template bool
   differentiate_opposite_point<4>(const FaceGeometry &,
                                   const FacePosition &,
-                                  const FaceGeometry &,
+                                  const FaceDifferentiator &,
                                   OverlapPointDerivative<4> &);
   template bool
   differentiate_opposite_point<9>(const FaceGeometry &,
                                   const FacePosition &,
-                                  const FaceGeometry &,
+                                  const FaceDifferentiator &,
                                   OverlapPointDerivative<9> &);
 } // namespace Touchstone

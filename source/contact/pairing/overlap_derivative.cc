@@ -19,7 +19,7 @@ namespace Touchstone
   {
     const FacePosition        slave_point = on_slave.position(of_facets.slave);
     OverlapPointDerivative<n> point       = of_facets;
-    if (!differentiate_opposite_point<n>(on_slave.geometry, slave_point, on_master.geometry, point))
+    if (!differentiate_opposite_point<n>(on_slave.geometry, slave_point, on_master, point))
       return;
     const FaceDerivative             master_point = on_master.at(point.master);
     OverlapSample<n, PositionFad<n>> sample;

@@ -69,7 +69,7 @@ namespace Touchstone
     cosine_derivative(const Face                      &slave,
                       const OverlapPointDerivative<n> &point,
                       const FaceGeometry              &master,
-                      const Tensor<1, dim>            &normal)
+                      const FaceDerivative            &on_master)
     {
       const Face          &face  = master.face();
       const Tensor<1, dim> plane = plane_normal(slave);
@@ -77,7 +77,7 @@ namespace Touchstone
       const FacePoint      x       = evaluate(face, master.exact_surface(), point.master);
       const Tensor<1, dim> product = cross_product_3d(x.tangents[0], x.tangents[1]);
       // c = sign * zeta . product / |product|, as in facing_cosine().
-      const double         sign = product * normal < 0. ? 1. : -1.;
+      const double         sign = product * on_master.normal < 0. ? 1. : -1.;
       const Tensor<1, dim> nu   = sign * product / product.norm();
       // d c = by_product . d(t_1 x t_2), from the derivative of the unit vector, and d(t_1 x t_2) =
       // dt_1 x t_2 + t_1 x dt_2.
@@ -85,7 +85,8 @@ namespace Touchstone
       const Tensor<1, dim>          by_t[2]    = {cross_product_3d(x.tangents[1], by_product),
                                                   cross_product_3d(by_product, x.tangents[0])};
       std::array<Tensor<1, dim>, 3> second;
-      if (master.exact_surface() != nullptr)
+      const bool                    exact = master.exact_surface() != nullptr;
+      if (exact)
         second = master.second_derivatives(point.master);
       else
         {
@@ -107,11 +108,14 @@ namespace Touchstone
         {
           // Slave nodes tilt the plane zeta; master nodes change nu over the tangents.
           const Tensor<1, dim> by_node = nu * by_slave[m];
+          Tensor<1, dim>       by_master;
+          for (unsigned int a = 0; a < 2; ++a)
+            by_master +=
+              exact ? by_t[a] * on_master.tangent_position[a][m] : shapes.gradient[m][a] * by_t[a];
           for (unsigned int e = 0; e < dim; ++e)
             {
               result[dim * m + e] += by_node[e];
-              result[dim * (n + m) + e] +=
-                shapes.gradient[m][0] * by_t[0][e] + shapes.gradient[m][1] * by_t[1][e];
+              result[dim * (n + m) + e] += by_master[e];
             }
         }
       return result;
@@ -126,12 +130,12 @@ namespace Touchstone
     differentiate_weight(const Face                      &slave,
                          const OverlapPointDerivative<n> &point,
                          const FaceGeometry              &master,
-                         const Tensor<1, dim>            &normal,
+                         const FaceDerivative            &on_master,
                          PositionFad<n>                  &weight)
     {
       constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
       const double           cosine      = facing_cosine(
-        plane_normal(slave), normal, master.face(), master.exact_surface(), point.master);
+        plane_normal(slave), on_master.normal, master.face(), master.exact_surface(), point.master);
       // Product rule: weight = S(c) times area weight.
       const FacingPart part(cosine);
       weight.val() = part.value * point.weight;
@@ -140,7 +144,7 @@ namespace Touchstone
       // Up to 45 degrees the factor is constant, and this costs nothing.
       if (part.by_cosine != 0.)
         {
-          const auto d_cosine = cosine_derivative<n>(slave, point, master, normal);
+          const auto d_cosine = cosine_derivative<n>(slave, point, master, on_master);
           for (unsigned int v = 0; v < n_variables; ++v)
             weight.fastAccessDx(v) += point.weight * part.by_cosine * d_cosine[v];
         }
@@ -200,7 +204,7 @@ namespace Touchstone
                 OverlapSample<n, PositionFad<n>> &sample)
   {
     constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
-    if (!differentiate_weight<n>(slave.face(), point, master, on_master.normal, sample.weight))
+    if (!differentiate_weight<n>(slave.face(), point, master, on_master, sample.weight))
       return false;
 
     // Both points move on their faces as the overlap changes (d xi), and with the nodes.

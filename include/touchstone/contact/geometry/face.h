@@ -125,9 +125,9 @@ namespace Touchstone
   /**
    * @brief Evaluate a face at @p xi in its current position.
    *
-   * With an exact surface P (closest-point map) the position is P(sum N_m X_m) +
-   * sum N_m u_m: only the displacement is interpolated, the shape is exact.
-   * Without, it is sum N_m (X_m + u_m).
+   * With an exact surface P (closest-point map) the position is R P(sum N_m X_m) +
+   * sum N_m (x_m - R X_m), R the facet_rotation(): the shape is exact, turns with the facet, and
+   * only what nodes have moved apart from that is interpolated. Without, it is sum N_m x_m.
    */
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);

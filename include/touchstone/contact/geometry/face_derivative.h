@@ -22,9 +22,6 @@ namespace Touchstone
     dealii::Tensor<2, dim> value;
   };
 
-  /** @brief A matrix per node of a face. */
-  using NodeMatrices = std::array<dealii::Tensor<2, dim>, Face::max_nodes>;
-
   /** @brief A point of a FaceGeometry with all that it changes with: xi, the
    * positions of the nodes of the face, and their averaged normals. */
   struct FaceDerivative
@@ -68,6 +65,8 @@ namespace Touchstone
     const FaceGeometry &geometry;
 
   private:
+    /** Of exact surfaces: facet_rotation_derivative(). */
+    std::unique_ptr<NodeMatrices> turn;
     /** Averaged less own normals at the nodes, and derivatives of the own ones:
      * [m][k] of the normal at node m with respect to the position of node k. For
      * interpolated normals on exact surfaces. */
@@ -87,6 +86,17 @@ namespace Touchstone
     differentiate_interpolated_normal(FaceDerivative               &result,
                                       const dealii::Tensor<1, dim> &own_normal) const;
   };
+
+  /** @brief Derivatives of the tangents of a face, at a fixed xi, with respect to the positions of
+   * its nodes. Not for smooth patches.
+   * @param shapes Shape functions there.
+   * @param tangents Of the exact surface, if there is one.
+   * @param turn facet_rotation_derivative() if there is one, else null. */
+  std::array<NodeMatrices, 2>
+  tangent_derivatives(const Face                                  &face,
+                      const FaceShapes                            &shapes,
+                      const std::array<dealii::Tensor<1, dim>, 2> &tangents,
+                      const NodeMatrices                          *turn);
 
   /** @brief The matrix A of the cross product, A b = a x b. */
   dealii::Tensor<2, dim>

@@ -4,6 +4,7 @@
 #define touchstone_contact_geometry_face_geometry_h
 
 #include <touchstone/contact/geometry/bilinear.h>
+#include <touchstone/contact/geometry/facet_rotation.h>
 #include <touchstone/contact/geometry/gregory_patch.h>
 #include <touchstone/contact/geometry/master_normal.h>
 
@@ -94,7 +95,11 @@ namespace Touchstone
     const AnalyticSurface      *exact;
     MasterNormal                kind;
     std::optional<GregoryPatch> patch;
-    /** If of degree 1: of the nodes and of their displacements. */
+    /** With an exact surface, which turns by it: that of the facet. */
+    dealii::Tensor<2, dim> rotation;
+    /** Displacements of the nodes; with an exact surface relative to the rotation. */
+    std::array<dealii::Tensor<1, dim>, Face::max_nodes> moved;
+    /** If of degree 1: of the nodes and of `moved`. */
     Bilinear<dim> reference, displacement;
 
     /** @param point The evaluate() there. */

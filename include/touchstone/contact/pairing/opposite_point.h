@@ -38,7 +38,7 @@ namespace Touchstone
   bool
   differentiate_opposite_point(const FaceGeometry        &slave,
                                const FacePosition        &on_slave,
-                               const FaceGeometry        &master,
+                               const FaceDifferentiator  &master,
                                OverlapPointDerivative<n> &point);
 } // namespace Touchstone
 
