@@ -18,8 +18,8 @@ namespace Touchstone
 
   namespace
   {
-    /** Errors that are reported: of the distance that a tied pair keeps, relative to the size of the
-     * face, and of the moment of its forces, relative to these times the size of faces. */
+    /** Errors that are reported: of the distance that a tied pair keeps, relative to the size of
+     * the face, and of the moment of its forces, relative to these times the size of faces. */
     constexpr double of_distance = 1e-3, of_moment = 1e-2;
 
     /** An error, length, at a place, with the angle by which the surface has turned there and the
@@ -117,7 +117,7 @@ namespace Touchstone
     }
 
     std::string
-    number(const double value)
+    rounded(const double value)
     {
       char text[24];
       std::snprintf(text, sizeof(text), "%.3g", value);
@@ -202,14 +202,14 @@ namespace Touchstone
                           "finer meshes where it is curved, no gap";
       if (worst.part > 0.)
         told.push_back(name + described(worst) + ", but the distance of up to " +
-                       number(worst.length) +
+                       rounded(worst.length) +
                        " that its surfaces are placed with does not turn with it: they are held "
                        "up to " +
-                       number(worst.size) + " from where they must be" + remedy);
+                       rounded(worst.size) + " from where they must be" + remedy);
       else if (moment.norm() > of_moment * forces)
-        told.push_back(name + "its forces pass the distance of up to " + number(longest) +
+        told.push_back(name + "its forces pass the distance of up to " + rounded(longest) +
                        " that its surfaces are placed with without their moment: " +
-                       number(moment.norm()) + " is missing in the balance of moments" + remedy);
+                       rounded(moment.norm()) + " is missing in the balance of moments" + remedy);
     }
   } // namespace
 
