@@ -260,8 +260,48 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Tied pairs farther apart than the cells are deep whose strain is extrapolated: the weight
+     * that is added to the nodes of the surface. Collective. */
+    void
+    add_wide_ties(const Contact &contact, std::vector<std::string> &result)
+    {
+      const auto sum_of_sizes = [](const Stencil &stencil) {
+        double sum = 0.;
+        for (const StencilEntry &entry : stencil)
+          sum += std::abs(entry.weight);
+        return sum;
+      };
+      for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+        {
+          double most = 0.;
+          for (const ContactRow &row : contact.pair(p).rows())
+            if (row.has_partner && row.at_surface)
+              most = std::max(most,
+                              0.5 * (sum_of_sizes(row.stencil) - sum_of_sizes(*row.at_surface)) /
+                                row.share);
+          most = Utilities::MPI::max(most, contact.communicator());
+          if (most <= 1.)
+            continue;
+          char text[300];
+          std::snprintf(
+            text,
+            sizeof(text),
+            "': its surfaces are placed up to %.3g times as far apart as the cells "
+            "behind the master surface are deep, whose strain is extrapolated over this "
+            "distance: the joint is softer than their material. Larger cells there, or "
+            "surfaces that are closer, make it stiffer",
+            most);
+          result.push_back("tied pair '" + contact.pair(p).parameters().name + text);
+        }
+    }
+  } // namespace
+
+
+
   std::vector<std::string>
-  uneven_ties(const Contact &contact)
+  doubtful_ties(const Contact &contact)
   {
     // Rows of averages give each node what a pressure over its area gives, but for the areas of
     // facets over curved surfaces. Of pointwise rows, meshes whose faces are of about the same size
@@ -296,6 +336,7 @@ namespace Touchstone
                         most);
           result.push_back("contact pair '" + contact.pair(p).parameters().name + text);
         }
+    add_wide_ties(contact, result);
     return result;
   }
 } // namespace Touchstone

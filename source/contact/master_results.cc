@@ -38,7 +38,8 @@ namespace Touchstone
         std::vector<Index>  &dofs,
         std::vector<double> &entries)
     {
-      for (const StencilEntry &entry : row.stencil)
+      // What carries an offset acts behind the surface as well, and its sum is zero.
+      for (const StencilEntry &entry : row.at_surface ? *row.at_surface : row.stencil)
         for (unsigned int d = 0; d < dim; ++d)
           {
             dofs.push_back(dim * entry.node + d);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/pairing/linear_rows.h>
 #include <touchstone/contact/start_check.h>
 
 #include <deal.II/base/mpi.h>
@@ -83,6 +84,8 @@ namespace Touchstone
     Vector zero;
     zero.reinit(*displacement);
     search(zero);
+    if (carries_offset())
+      make_linear(pairing_input(search_distance), present);
     reference = {present, with_stencils(present)};
   }
 
@@ -290,6 +293,8 @@ namespace Touchstone
         make_pairing(search_distance)->update(where, time, rows);
         ++searches;
         slave_surface->set_without_rows(without_rows);
+        if (carries_offset())
+          make_linear(pairing_input(search_distance), rows);
         if (small)
           reference_of_all = {rows, with_stencils(rows)};
       }

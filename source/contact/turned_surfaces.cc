@@ -2,6 +2,7 @@
 
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/pairing/linear_rows.h>
 #include <touchstone/contact/turned_surfaces.h>
 
 #include <deal.II/base/mpi.h>
@@ -124,42 +125,6 @@ namespace Touchstone
       return text;
     }
 
-    /** Reference positions of the nodes of a pair, by dof, with those of the stencils of its rows.
-     * Collective. */
-    Vector
-    reference_positions(const Contact &contact, const ContactPair &pair)
-    {
-      const Solid &solid     = contact.solid_model();
-      Vector       positions = solid.zero_vector();
-      for (const Surface *const surface : {&pair.slave(), pair.master()})
-        for (const SurfaceNode &node : surface->owned_nodes())
-          for (unsigned int d = 0; d < dim; ++d)
-            positions(dim * node.node + d) = node.reference[d];
-      positions.compress(VectorOperation::insert);
-      IndexSet needed = solid.relevant;
-      for (const ContactRow &row : pair.rows())
-        for (const StencilEntry &entry : row.stencil)
-          needed.add_range(dim * entry.node, dim * entry.node + dim);
-      needed.compress();
-      Vector result;
-      result.reinit(solid.owned, needed, solid.communicator);
-      result = positions;
-      return result;
-    }
-
-    /** M X, what a tied row keeps of the reference state: M u is zero. */
-    Tensor<1, dim>
-    kept_distance(const ContactRow &row, const Vector &positions)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          result[d] = row.reference[d];
-          for (const StencilEntry &entry : row.stencil)
-            result[d] -= entry.weight * positions(dim * entry.node + d);
-        }
-      return result;
-    }
 
     void
     tell_of_distance(const Contact            &contact,
@@ -171,13 +136,13 @@ namespace Touchstone
       double              forces    = 0.;
       const Surface      &slave     = pair.slave();
       const Vector       &u         = contact.ghosted_displacement();
-      const Vector        positions = reference_positions(contact, pair);
+      const Vector        positions = row_positions(contact.solid_model(), pair.rows());
       std::vector<double> lengths{0.};
       for (const ContactRow &row : pair.rows())
         {
           if (!row.has_partner)
             continue;
-          const Tensor<1, dim> distance = kept_distance(row, positions),
+          const Tensor<1, dim> distance = row_offset(row, positions),
                                force    = contact.state(row).force;
           moment += cross_product_3d(distance, force);
           forces += force.norm() * row.size;

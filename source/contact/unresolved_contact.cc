@@ -95,7 +95,7 @@ namespace Touchstone
     }
 
     std::string
-    number(const double value)
+    printed(const double value)
     {
       char text[20];
       std::snprintf(text, sizeof(text), "%.3g", value);
@@ -387,11 +387,11 @@ namespace Touchstone
     if (edges.depth > 0.)
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +
              parameters.master_body + "' have passed through each other at " + at(edges.slave) +
-             ", by " + number(edges.depth);
+             ", by " + printed(edges.depth);
     const Overlap vertices = deepest(hidden_vertices(others), /*edges=*/false);
     if (vertices.depth > 0.)
       return "a node of '" + parameters.master_body + "' at " + at(vertices.master) + " lies " +
-             number(vertices.depth) + " within '" + parameters.slave_body +
+             printed(vertices.depth) + " within '" + parameters.slave_body +
              "', between slave nodes that touch nothing";
     return "";
   }

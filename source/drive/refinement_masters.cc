@@ -72,7 +72,7 @@ namespace Touchstone
     for (const ContactRow &row : problem.state().contact.pair(pair).rows())
       if (problem.state().contact.state(row).active())
         if (const double value = at_slaves(dim * row.slave); value > 0.)
-          for (const StencilEntry &entry : row.stencil)
+          for (const StencilEntry &entry : row.at_surface ? *row.at_surface : row.stencil)
             if (entry.weight > 0.)
               at_masters(dim * entry.node) += entry.weight * value;
     at_masters.compress(VectorOperation::add);

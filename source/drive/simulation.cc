@@ -265,7 +265,7 @@ namespace Touchstone
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
-    for (const std::string &text : uneven_ties(problem->state().contact))
+    for (const std::string &text : doubtful_ties(problem->state().contact))
       warnings.add(text);
     if (!origin.checkpoint)
       record_start();
@@ -329,7 +329,7 @@ namespace Touchstone
     add(describe_bodies(scene, forest, solid));
     for (const std::string &text : forest.warnings())
       lines.push_back("warning: " + text);
-    for (const std::string &text : uneven_ties(problem->state().contact))
+    for (const std::string &text : doubtful_ties(problem->state().contact))
       lines.push_back("warning: " + text);
     add(adjusted);
     add(start);

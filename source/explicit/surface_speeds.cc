@@ -98,11 +98,14 @@ namespace Touchstone
           {
             std::vector<unsigned int> list;
             for (const Face &face : surface->owned_faces())
-              // Points within cells move with the nodes behind the faces, too.
-              for (unsigned int m = 0;
-                   m < (pair.pairing().keeps_nodes_out() ? face.n_nodes() : 2 * Face::behind);
-                   ++m)
-                list.push_back(nodes.local(dim * face.nodes[m]));
+              {
+                for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                  list.push_back(nodes.local(dim * face.nodes[m]));
+                // Points within cells move with the nodes behind the faces, too.
+                if (!pair.pairing().keeps_nodes_out())
+                  for (const Index node : face.nodes_behind)
+                    list.push_back(nodes.local(dim * node));
+              }
             std::sort(list.begin(), list.end());
             list.erase(std::unique(list.begin(), list.end()), list.end());
             sides.push_back(std::move(list));

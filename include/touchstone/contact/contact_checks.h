@@ -25,9 +25,10 @@ namespace Touchstone
 
   /** @brief Tied pairs whose rows hand a uniform traction on to interior nodes of the master in
    * other parts than their areas, as pointwise rows of meshes that do not match do (doc/theory.md
-   * 3): a sentence for each. Collective. */
+   * 3), and those across gaps that are wider than the cells behind them (4.6): a sentence for each.
+   * Collective. */
   std::vector<std::string>
-  uneven_ties(const Contact &contact);
+  doubtful_ties(const Contact &contact);
 
   /** @brief Contact in the state of the last update that rows of slave nodes and master faces
    * cannot describe, in words; empty if there is none. Collective. */

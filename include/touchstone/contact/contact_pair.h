@@ -123,6 +123,22 @@ namespace Touchstone
       return is_tied;
     }
 
+    /** @brief Rows are exact for linear displacements also where the surfaces are apart, by the
+     * nodes behind the master faces (doc/theory.md 4.6). */
+    bool
+    carries_offset() const
+    {
+      return is_tied && master_surface && !offsets_stay;
+    }
+
+    /** @brief Leave offsets to themselves, before the first update: the nodes behind the master
+     * faces depend on the slave nodes over other pairs. */
+    void
+    leave_offsets()
+    {
+      offsets_stay = true;
+    }
+
     /** @brief Pairing of the reference state, kept for small sliding and tied. */
     bool
     small_sliding() const
@@ -333,6 +349,8 @@ namespace Touchstone
     double              shortening   = 0.;
     unsigned int        searches     = 0;
     bool                started      = false;
+    /** See leave_offsets(). */
+    bool offsets_stay = false;
 
     std::unique_ptr<Surface>
     make_surface(unsigned int                    body,

@@ -101,6 +101,9 @@ namespace Touchstone
      * negative weights (doc/theory.md 3.1, equation (5)), and so are those of rows between nodes.
      * The sum is one. */
     std::vector<StencilEntry> stencil;
+    /** Of a tied row whose slave point is not on the facets of the master: the stencil of the place
+     * there alone, without what carries the offset (doc/theory.md 4.6); null elsewhere. */
+    std::shared_ptr<const Stencil> at_surface;
     /** Set by Pairing::differentiate(), null while normal and stencil are taken
      * as constant. */
     std::shared_ptr<const RowDerivative> derivative;

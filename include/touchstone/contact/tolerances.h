@@ -147,6 +147,13 @@ namespace Touchstone
      * that several pairs cover"): surfaces of two bodies side by side need not fit exactly. */
     constexpr double nearly_covered = 0.999, shared_from = 0.8, shared_to = 0.95;
 
+    /** By the size of a face: the slave point of a row of a tied pair lies on the master facets. */
+    constexpr double no_offset = 1e-9;
+
+    /** Determinant of the edges of a cell at a corner, by the third power of their size, below
+     * which the cell is flat there and has no gradient. */
+    constexpr double flat_cell = 1e-6;
+
     /** Part of a nodal area that may be missing by round-off where all is covered. */
     constexpr double fully_covered = 1e-10;
 

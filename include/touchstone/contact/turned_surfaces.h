@@ -16,8 +16,8 @@ namespace Touchstone
    *
    * With exact surfaces the arch over a face, from the facet to the exact surface, keeps the
    * direction of the reference state, equation (8); so does the distance that a tied pair is placed
-   * with, whose forces pass it without their moment. Both are rightly zero where nodes lie on each
-   * other.
+   * with where its rows leave it to itself (ContactPair::leave_offsets()), whose forces pass it
+   * without their moment. Both are rightly zero where nodes lie on each other.
    *
    * The surfaces must be those of the last step. Collective.
    */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/strong_components.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/row_dependence.h>
@@ -16,30 +17,66 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Pair p leads to pair q if master nodes of p are slave nodes of q.
+     * @param behind Of pairs that carry offsets those that are behind the master faces, instead.
+     * Collective. */
+    Edges
+    shared_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                 const bool                                       behind,
+                 const MPI_Comm                                   communicator)
+    {
+      Edges edges;
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        for (unsigned int q = 0; q < pairs.size(); ++q)
+          {
+            // Both surfaces are distributed: each rank compares its own faces and nodes, and one
+            // match on any rank connects the pairs.
+            int shared = 0;
+            if ((p != q || pairs[p]->parameters().of_one_body()) && pairs[p]->master() &&
+                (!behind || pairs[p]->carries_offset()))
+              {
+                std::set<Index> slaves;
+                for (const SurfaceNode &node : pairs[q]->slave().owned_nodes())
+                  slaves.insert(node.node);
+                for (const Face &face : pairs[p]->master()->owned_faces())
+                  for (unsigned int m = 0; m < (behind ? Face::behind : face.n_nodes()); ++m)
+                    shared |= slaves.count(behind ? face.nodes_behind[m] : face.nodes[m]);
+              }
+            if (Utilities::MPI::max(shared, communicator))
+              edges.emplace_back(p, q);
+          }
+      return edges;
+    }
+
+    /** Nodes behind master faces repeat nothing that another row says, so that no row is redundant
+     * because of them: pairs that would lead back to themselves over such nodes leave offsets to
+     * themselves. Collective. */
+    void
+    leave_offsets(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                  const Edges                                     &edges,
+                  const MPI_Comm                                   communicator)
+    {
+      const Edges of_offsets = shared_nodes(pairs, /*behind=*/true, communicator);
+      Edges       all(edges);
+      all.insert(all.end(), of_offsets.begin(), of_offsets.end());
+      for (const std::vector<unsigned int> &component : strong_components(pairs.size(), all))
+        for (const auto &[p, q] : of_offsets)
+          if (std::count(component.begin(), component.end(), p) > 0 &&
+              std::count(component.begin(), component.end(), q) > 0)
+            pairs[p]->leave_offsets();
+    }
+  } // namespace
+
+
+
   void
   CyclicConstraints::reinit(const std::vector<std::unique_ptr<ContactPair>> &pairs,
                             const MPI_Comm                                   communicator)
   {
-    // Pair p leads to pair q if master nodes of p are slave nodes of q.
-    Edges edges;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (unsigned int q = 0; q < pairs.size(); ++q)
-        {
-          // Both surfaces are distributed: each rank compares its own faces and nodes, and one
-          // match on any rank connects the pairs.
-          int shared = 0;
-          if ((p != q || pairs[p]->parameters().of_one_body()) && pairs[p]->master())
-            {
-              std::set<Index> slaves;
-              for (const SurfaceNode &node : pairs[q]->slave().owned_nodes())
-                slaves.insert(node.node);
-              for (const Face &face : pairs[p]->master()->owned_faces())
-                for (unsigned int m = 0; m < face.n_nodes(); ++m)
-                  shared |= slaves.count(face.nodes[m]);
-            }
-          if (Utilities::MPI::max(shared, communicator))
-            edges.emplace_back(p, q);
-        }
+    const Edges edges = shared_nodes(pairs, /*behind=*/false, communicator);
+    leave_offsets(pairs, edges, communicator);
     const std::vector<bool> found = on_cycles(pairs.size(), edges);
     cyclic.clear();
     for (unsigned int p = 0; p < pairs.size(); ++p)

@@ -62,7 +62,7 @@ namespace Touchstone
     // Other slave nodes whose functions are aggregated with this one repeat nothing that a master
     // says: over a joint of two masters rows of both pairs have parts of the same nodes.
     std::set<Index> aggregated;
-    for (const StencilEntry &entry : row.stencil)
+    for (const StencilEntry &entry : row.at_surface ? *row.at_surface : row.stencil)
       if (entry.weight < 0. && !row.between_nodes && !own_body)
         aggregated.insert(entry.node);
     for (const StencilEntry &entry : row.stencil)

@@ -38,12 +38,13 @@ namespace Touchstone
     }
 
     /** A node of a face of a cell: its first degree of freedom there, its number on the face, and
-     * its position in the unit cell; and the first degree of freedom on the opposite face. */
+     * its position in the unit cell; and the first degree of freedom on the opposite face, and the
+     * number of the corner, Face::behind elsewhere. */
     struct NodeOnFace
     {
       unsigned int dof, m;
       Point<dim>   unit;
-      unsigned int behind;
+      unsigned int behind, corner;
     };
 
     std::array<std::vector<NodeOnFace>, 6>
@@ -70,8 +71,10 @@ namespace Touchstone
                 while (fe.system_to_component_index(behind).first != 0 ||
                        fe.unit_support_point(behind).distance(opposite) > 1e-8)
                   ++behind;
+                const unsigned int a = along(axes[0]), b = along(axes[1]), p = fe.degree;
+                const bool         corner = a % p == 0 && b % p == 0;
                 result[f].push_back(
-                  {i, along(axes[0]) + (fe.degree + 1) * along(axes[1]), unit, behind});
+                  {i, a + (p + 1) * b, unit, behind, corner ? a / p + 2 * (b / p) : Face::behind});
               }
         }
       return result;
@@ -156,8 +159,8 @@ namespace Touchstone
             for (const NodeOnFace &on_face : nodes_of_faces[f])
               {
                 face.nodes[on_face.m] = dofs[on_face.dof] / dim;
-                if (face.degree == 1)
-                  face.nodes[Face::behind + on_face.m] = dofs[on_face.behind] / dim;
+                if (on_face.corner < Face::behind)
+                  face.nodes_behind[on_face.corner] = dofs[on_face.behind] / dim;
                 face.reference[on_face.m] =
                   solid.mapping.transform_unit_to_real_cell(cell, on_face.unit);
               }

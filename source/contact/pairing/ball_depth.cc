@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/ball_depth.h>
+#include <touchstone/solid/node_positions.h>
 
 #include <array>
 
@@ -13,19 +14,8 @@ namespace Touchstone
   BallDepth::BallDepth(const Solid &solid, const BallsInCell &balls)
     : solid(solid)
     , balls(balls)
-    , coordinates(solid.zero_vector())
+    , coordinates(node_positions(solid))
   {
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (solid.owned.is_element(dofs[i]))
-              coordinates(dofs[i]) = solid.mapping.transform_unit_to_real_cell(
-                cell, solid.fe.unit_support_point(i))[solid.fe.system_to_component_index(i).first];
-        }
-    coordinates.compress(VectorOperation::insert);
   }
 
 
@@ -36,7 +26,10 @@ namespace Touchstone
     IndexSet needed = solid.relevant;
     for (const Face *const face : faces)
       for (unsigned int i = 0; i < BallsInCell::n_nodes; ++i)
-        needed.add_range(dim * face->nodes[i], dim * face->nodes[i] + dim);
+        {
+          const Index first = dim * face->cell_node(i);
+          needed.add_range(first, first + dim);
+        }
     needed.compress();
     // On one rank always the same.
     if (known_displacement.size() == 0 || Utilities::MPI::n_mpi_processes(solid.communicator) > 1)
@@ -62,7 +55,7 @@ namespace Touchstone
     for (unsigned int i = 0; i < x.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const Index dof = dim * face.nodes[i] + d;
+          const Index dof = dim * face.cell_node(i) + d;
           x[i][d]         = known_coordinates(dof) + (present ? known_displacement(dof) : 0.);
         }
     const FaceShapes shapes(1, balls.above(ball));

@@ -219,10 +219,10 @@ namespace Touchstone
       row.gap_vector        = row.gap * n;
       row.lever             = slave.point.x - slave.face->position(slave.m);
       for (unsigned int i = 0; i < BallsInCell::n_nodes; ++i)
-        row.stencil.push_back({facing.face->nodes[i], share * balls.weight(opposite, i)});
+        row.stencil.push_back({facing.face->cell_node(i), share * balls.weight(opposite, i)});
       for (unsigned int i = 0; i < BallsInCell::n_nodes; ++i)
         if (i != slave.m)
-          row.stencil.push_back({slave.face->nodes[i], -share * balls.weight(slave.ball, i)});
+          row.stencil.push_back({slave.face->cell_node(i), -share * balls.weight(slave.ball, i)});
     }
   } // namespace
 } // namespace Touchstone

@@ -26,8 +26,7 @@ namespace Touchstone
   struct Face
   {
     static constexpr unsigned int max_nodes = 9;
-    /** Of degree 1: from here on `nodes` has those of the opposite face of the cell, in the same
-     * order. */
+    /** From this number on cell_node() is on the opposite face of the cell. */
     static constexpr unsigned int behind = 4;
 
     /** Order of faces that does not depend on the partition. */
@@ -44,6 +43,8 @@ namespace Touchstone
     unsigned int mirrored_edges = 0;
 
     std::array<Index, max_nodes> nodes{};
+    /** Those at the corners of the opposite face of the cell, in the order of the corners. */
+    std::array<Index, behind> nodes_behind{};
     /** Nodes that leave their part of the face to the others, for no row is theirs: those of
      * Surface::set_without_rows(), in the order of the continuous basis, see TraceBasis. */
     std::array<bool, max_nodes>                   without_row{};
@@ -66,6 +67,15 @@ namespace Touchstone
     ends() const
     {
       return outer_edges & ~mirrored_edges;
+    }
+
+    /** @brief The node at a corner of the cell: of the face, and from Face::behind on those
+     * opposite to them, in the same order. */
+    Index
+    cell_node(const unsigned int i) const
+    {
+      return i < behind ? nodes[i % 2 * degree + i / 2 * degree * (degree + 1)]
+                        : nodes_behind[i - behind];
     }
 
     /** @brief Present position of the node @p m. */
