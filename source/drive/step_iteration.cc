@@ -168,7 +168,7 @@ namespace Touchstone
   StepProblem::solve()
   {
     TimerOutput::Scope scope(timer, "linear solver");
-    // The set-up of multigrid takes most memory of a run.
+    // The linear solver takes most memory of a run.
     before_increment.clear();
     const int iterations = system->solve(solved_increment);
     check_increment();

@@ -94,8 +94,8 @@ namespace Touchstone
     unsigned int group = 1;
     // From fine to coarse until few dofs are left. The rows of a level are made by the Galerkin
     // product of the one above and are read twice, for the copy in single precision and for the
-    // next product in double, which frees them one by one: the set-up is what takes most memory of
-    // a run.
+    // next product in double, which frees them one by one: the set-up is among what takes most
+    // memory of a run.
     while (rows->numbers()->size() > few)
       {
         give_back_free_memory();
