@@ -370,6 +370,13 @@ namespace
           }
         errors.applied = std::max(errors.applied, of_node.linfty_norm());
       }
+    // Rows that condensation has made are large, and freed once they have been read.
+    for (unsigned int node = 0; node < rows->n_nodes(); ++node)
+      {
+        rows->forget(node);
+        if (applied.constrained[dim * node])
+          AssertThrow(rows->read(node).columns.empty(), ExcMessage("a row that was read is kept"));
+      }
   }
 
 

@@ -97,6 +97,13 @@ namespace Touchstone
         return present;
       }
 
+      void
+      forget(const unsigned int node) override
+      {
+        if (changed[node] != none)
+          std::vector<std::pair<int, Block>>().swap(rows[changed[node]]);
+      }
+
     private:
       const Matrix &stiffness;
       const bool    half;
@@ -167,7 +174,8 @@ namespace Touchstone
   std::unique_ptr<BlockRows>
   condensed_block_rows(const CondensationInput &input)
   {
-    // What the assembly of the stiffness left.
+    // What the assembly of the stiffness left, and its last product.
+    input.system.stiffness->free_work_space();
     give_back_free_memory();
     return std::make_unique<CondensedRows>(input, std::make_unique<CondensedRows::Parts>(input));
   }

@@ -182,8 +182,6 @@ namespace Touchstone
   {
     if (entries.size() == 0)
       entries.resize(block * pattern->column.size() + unused);
-    padded_in.resize(pad * pattern->n_local_nodes());
-    padded_out.resize(pad * pattern->n_nodes());
     ghosts.resize(pattern->partitioner->n_ghost_indices());
     imported.resize(pattern->partitioner->n_import_indices());
   }
@@ -197,8 +195,10 @@ namespace Touchstone
   void
   BlockMatrix<Number>::multiply(Number *result, const Number *x) const
   {
-    const auto              &partitioner = *pattern->partitioner;
-    const unsigned int       n           = pattern->n_nodes();
+    const auto        &partitioner = *pattern->partitioner;
+    const unsigned int n           = pattern->n_nodes();
+    padded_in.resize(pad * pattern->n_local_nodes());
+    padded_out.resize(pad * n);
     std::vector<MPI_Request> requests;
     partitioner.export_to_ghosted_array_start(
       0,

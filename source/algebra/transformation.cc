@@ -103,8 +103,7 @@ namespace Touchstone
   {
     if (made)
       return *made;
-    auto result           = std::make_unique<OwnRows>();
-    result->inhomogeneity = std::make_unique<Epetra_Vector>(dofs);
+    auto result = std::make_unique<OwnRows>();
     // Columns are the own dofs first, then those of other ranks that the lines refer to.
     LocalIndices           indices(dofs);
     std::vector<SparseRow> rows;
@@ -115,7 +114,7 @@ namespace Touchstone
           rows.emplace_back();
           for (const auto &[other, factor] : of_dof->entries)
             rows.back().emplace_back(indices.local(other), factor);
-          (*result->inhomogeneity)[i] = of_dof->inhomogeneity;
+          result->inhomogeneities.push_back(of_dof->inhomogeneity);
         }
     result->entries = make_matrix(rows, indices, dofs);
     result->values  = std::make_unique<Epetra_Vector>(result->entries->RangeMap());
@@ -128,10 +127,14 @@ namespace Touchstone
 
 
 
-  const Epetra_Vector &
+  Epetra_Vector
   Transformation::inhomogeneity() const
   {
-    return *own_rows().inhomogeneity;
+    const OwnRows &t = own_rows();
+    Epetra_Vector  result(dofs);
+    for (std::size_t k = 0; k < t.rows.size(); ++k)
+      result[t.rows[k]] = t.inhomogeneities[k];
+    return result;
   }
 
 
@@ -171,6 +174,8 @@ namespace Touchstone
   Transformation::expand(const Epetra_Vector &y, Epetra_Vector &result) const
   {
     apply(y, result);
-    result.Update(1., inhomogeneity(), 1.);
+    const OwnRows &t = own_rows();
+    for (std::size_t k = 0; k < t.rows.size(); ++k)
+      result[t.rows[k]] += t.inhomogeneities[k];
   }
 } // namespace Touchstone

@@ -24,7 +24,6 @@ namespace Touchstone
         // inside out.
         , guesses(solid.linear())
         , motion(solid.zero_vector())
-        , motion_of_step(motion)
       {
         fields = {{"motion", &motion}};
       }
@@ -107,9 +106,10 @@ namespace Touchstone
         // The first step closes the initial gaps: its motion says nothing of the second one.
         if (guesses && committed_time > 0.)
           {
-            motion = motion_of_step;
+            motion.swap(motion_of_step);
             motion *= 1. / (time - committed_time);
           }
+        motion_of_step.clear();
         TimeIntegration::commit();
       }
 
@@ -130,7 +130,7 @@ namespace Touchstone
        * predict the next step.
        */
       Vector motion;
-      /** Displacement of the step that end_step() has seen, length. */
+      /** Displacement of the step that end_step() has seen, length; empty once it is committed. */
       Vector motion_of_step;
     };
   } // namespace

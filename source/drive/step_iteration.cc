@@ -168,7 +168,9 @@ namespace Touchstone
   StepProblem::solve()
   {
     TimerOutput::Scope scope(timer, "linear solver");
-    const int          iterations = system->solve(solved_increment);
+    // The linear solver takes most memory of a run.
+    before_increment.clear();
+    const int iterations = system->solve(solved_increment);
     check_increment();
     system->recover(solved_increment);
     return iterations;
@@ -183,9 +185,8 @@ namespace Touchstone
     // are admissible (doc/theory.md 2.2). The multipliers belong to the end of the full increment
     // and are not scaled.
     admissible_part = 1.;
-    increment       = solved_increment;
     Vector trial(u);
-    trial += increment;
+    trial += solved_increment;
     for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
       {
         // The load stepping then cuts the step.
@@ -193,13 +194,12 @@ namespace Touchstone
           throw InvertedCells("a cell turns inside out (det F <= 0) or beyond the limit of its "
                               "law, even with 1/64 of a Newton increment: " +
                               inverted_place(trial));
-        increment *= 0.5;
         admissible_part *= 0.5;
         trial = u;
-        trial += increment;
+        trial.add(admissible_part, solved_increment);
       }
-    before_increment = u;
-    u                = trial;
+    before_increment.swap(u);
+    u.swap(trial);
     contact.enforcement().update(contact,
                                  scene.newton.line_search != NewtonParameters::LineSearch::none);
   }
@@ -210,7 +210,7 @@ namespace Touchstone
   StepProblem::shorten(const double fraction)
   {
     u = before_increment;
-    u.add(fraction, increment);
+    u.add(fraction * admissible_part, solved_increment);
     contact.enforcement().shorten(contact,
                                   fraction < 1. ? fraction * admissible_part
                                                 : 1.); // the full increment, as in update()

@@ -41,9 +41,6 @@ namespace Touchstone
     , internal(u)
     , applied(u)
     , unbalanced(u)
-    , increment(u)
-    , solved_increment(u)
-    , before_increment(u)
     , forcing_term(scene.linear_solver.tolerance,
                    scene.newton.residual_tolerance,
                    scene.has_friction())

@@ -332,8 +332,10 @@ namespace Touchstone
   {
     const unsigned int before = solver->counts().iterations;
     Epetra_Vector      solution(condensed->rows());
+    increment.clear(); // its memory while the solver needs most
     solver->solve(*condensed, modes.motions(), solution);
     const Index n = parts.solid.owned.n_elements();
+    increment     = Vector(system->rhs); // its layout without a message
     // Eliminated dofs follow from the constraints.
     condensed->expand(solution, increment);
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());

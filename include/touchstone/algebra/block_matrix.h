@@ -158,6 +158,15 @@ namespace Touchstone
     void
     multiply(Number *result, const Number *x) const;
 
+    /** @brief Free the work space of products, which takes the memory of three vectors; the next
+     * product makes it again. */
+    void
+    free_work_space() const
+    {
+      padded_in.clear();
+      padded_out.clear();
+    }
+
     /** @brief An entry of the diagonal, by local index of the row. */
     Number
     diagonal(const unsigned int row) const
@@ -230,7 +239,7 @@ namespace Touchstone
      * of four is loaded for the last column of three. */
     dealii::AlignedVector<Number> entries;
 
-    /** Allocate the vectors of products and, unless they exist, the entries as zeros. */
+    /** Allocate what is exchanged in products and, unless they exist, the entries as zeros. */
     void
     allocate();
 

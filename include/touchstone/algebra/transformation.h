@@ -119,7 +119,7 @@ namespace Touchstone
     expand(const Epetra_Vector &y, Epetra_Vector &result) const;
 
     /** @brief g. Collective. */
-    const Epetra_Vector &
+    Epetra_Vector
     inhomogeneity() const;
 
   private:
@@ -136,7 +136,7 @@ namespace Touchstone
       std::vector<int>                  rows;
       std::unique_ptr<Epetra_CrsMatrix> entries;
       std::unique_ptr<Epetra_Vector>    values; // of the rows, work space
-      std::unique_ptr<Epetra_Vector>    inhomogeneity;
+      std::vector<double>               inhomogeneities;
     };
     mutable std::unique_ptr<OwnRows> made;
 

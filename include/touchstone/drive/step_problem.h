@@ -122,9 +122,8 @@ namespace Touchstone
      * applied: all but those of contact, as the time integration weighs them; unbalanced: their
      * sum with contact, before the reactions of supports are removed. */
     Vector u, committed_u, external, internal, applied, unbalanced;
-    /** Of the last linear solve: the increment after halving for admissible cells, and the full
-     * one. */
-    Vector                           increment, solved_increment;
+    /** Of the last linear solve, in full. */
+    Vector                           solved_increment;
     std::unique_ptr<TimeIntegration> integration;
     std::unique_ptr<StepSystem>      system;
     /** All that has history of its own. */
@@ -134,7 +133,8 @@ namespace Touchstone
     double touch         = 1.;
     bool   touch_unknown = false;
     /** @name State to which shorten() returns: the displacement before the last
-     * update(), and the fraction of the increment that left all cells admissible */
+     * update(), empty during a linear solve, and the fraction of the increment that left all cells
+     * admissible */
     /** @{ */
     Vector before_increment;
     double admissible_part = 1.;

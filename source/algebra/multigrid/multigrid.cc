@@ -59,15 +59,23 @@ namespace Touchstone
 
 
 
-  // The diagonal D is the inner preconditioner of the polynomial: eigenvalues are those of
-  // D^-1 A.
   Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
     : matrix(rows, symmetric)
   {
-    Chebyshev::AdditionalData data(degree, range, estimate_iterations);
+  }
+
+
+
+  // The diagonal D is the inner preconditioner of the polynomial: eigenvalues are those of
+  // D^-1 A.
+  void
+  Multigrid::Level::make_smoother(Chebyshev         &result,
+                                  const unsigned int iterations,
+                                  const double       eigenvalue) const
+  {
+    Chebyshev::AdditionalData data(degree, range, iterations, /*residual*/ 1e-2, eigenvalue);
     data.preconditioner = std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
-    smoother.initialize(matrix, data);
-    matrix.initialize_vector(rhs);
+    result.initialize(matrix, data);
   }
 
 
@@ -86,8 +94,8 @@ namespace Touchstone
     unsigned int group = 1;
     // From fine to coarse until few dofs are left. The rows of a level are made by the Galerkin
     // product of the one above and are read twice, for the copy in single precision and for the
-    // next product in double, which frees them one by one: the set-up is what takes most memory of
-    // a run.
+    // next product in double, which frees them one by one: the set-up is among what takes most
+    // memory of a run.
     while (rows->numbers()->size() > few)
       {
         give_back_free_memory();
@@ -130,14 +138,19 @@ namespace Touchstone
   {
     give_back_free_memory();
     for (const auto &level : levels)
-      for (VectorType *vector : {&level->solution, &level->residual})
-        level->matrix.initialize_vector(*vector);
+      {
+        level->make_smoother(level->smoother, 0, level->eigenvalue);
+        for (VectorType *vector : {&level->rhs, &level->solution, &level->residual})
+          level->matrix.initialize_vector(*vector);
+      }
   }
 
 
 
+  // By a polynomial of its own: that of the cycles is made when the set-up is done, for it keeps
+  // three vectors.
   double
-  Multigrid::largest_eigenvalue(const Level &level)
+  Multigrid::largest_eigenvalue(Level &level)
   {
     const auto fail = [](const std::string &reason) {
       throw LinearSolverFailure("multigrid cannot be set up: the largest eigenvalue of a level "
@@ -145,17 +158,22 @@ namespace Touchstone
                                 reason);
     };
     // Sums over all ranks decide: all throw or none.
-    double largest = 0.;
     try
       {
-        largest = level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+        Chebyshev  estimate;
+        VectorType layout;
+        level.matrix.initialize_vector(layout);
+        level.make_smoother(estimate, estimate_iterations, 1.);
+        level.eigenvalue = estimate.estimate_eigenvalues(layout).max_eigenvalue_estimate;
         // Vectors of its conjugate gradients, which deal.II would keep for later ones.
         GrowingVectorMemory<VectorType>::release_unused_memory();
+        level.matrix.free_work_space();
       }
     catch (const ExceptionBase &)
       {
         fail("for the matrix is indefinite, singular or not finite");
       }
+    const double largest = level.eigenvalue / margin;
     if (!std::isfinite(largest) || !(largest > 0.))
       fail("for it comes out as " + std::to_string(largest));
     return largest;

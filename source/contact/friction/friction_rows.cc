@@ -25,18 +25,15 @@ namespace Touchstone
   void
   Friction::reinit(std::vector<FrictionRow> all_rows)
   {
-    present   = std::move(all_rows);
-    committed = present;
     // The decision must be the same on all ranks, because the import of positions is collective.
+    // Without friction nothing is kept: a vector that is cleared keeps its memory.
     int some = 0;
-    for (const FrictionRow &row : present)
+    for (const FrictionRow &row : all_rows)
       some |= (row.law != nullptr);
     if (Utilities::MPI::max(some, solid.communicator) == 0)
-      {
-        present.clear();
-        committed.clear();
-        return;
-      }
+      return;
+    present   = std::move(all_rows);
+    committed = present;
     reference_positions.reinit(solid.zero_vector());
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
     owned_displacement.reinit(reference_positions);

@@ -92,6 +92,13 @@ namespace Touchstone
         find_edges(found);
         find_vertices(found);
       }
+    // Faces are large, and nothing refers to them if nothing was found.
+    if (Utilities::MPI::max(static_cast<int>(!found.empty()), solid.communicator) == 0)
+      {
+        around.clear();
+        slave_exchange.forget();
+        exchange.forget();
+      }
     return found;
   }
 
@@ -110,6 +117,10 @@ namespace Touchstone
   void
   EdgeSearch::hold(const std::vector<std::pair<Index, std::uint64_t>> &keys)
   {
+    // Most problems have no such rows, and a vector over all dofs is large.
+    held.clear();
+    if (Utilities::MPI::max(static_cast<int>(!keys.empty()), solid.communicator) == 0)
+      return;
     Vector owned_part(solid.zero_vector());
     for (const auto &[node, key] : keys)
       owned_part(dim * node) = in_a_double(key);

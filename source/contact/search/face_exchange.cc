@@ -126,6 +126,17 @@ namespace Touchstone
 
 
 
+  void
+  FaceExchange::forget()
+  {
+    std::vector<Face>().swap(known);
+    by_key.clear();
+    sent.clear();
+    received.clear();
+  }
+
+
+
   // On one rank all faces are kept in their order, without boxes. Faces are large: only what
   // changes is copied.
   void

@@ -59,8 +59,14 @@ namespace Touchstone
     {
       Level(BlockRows &rows, bool symmetric);
 
+      /** Estimates the largest eigenvalue by so many @p iterations; none: it is @p eigenvalue. */
+      void
+      make_smoother(Chebyshev &result, unsigned int iterations, double eigenvalue) const;
+
       BlockMatrix<float> matrix;
       Chebyshev          smoother;
+      /** Largest one of the matrix over its diagonal, as deal.II bounds it. */
+      double eigenvalue = 0.;
       /** To the next level, if there is one. */
       std::unique_ptr<Prolongation> prolongation;
       /** Work space of a cycle. */
@@ -78,7 +84,7 @@ namespace Touchstone
     /** @brief Of the matrix of a level over its diagonal. @throws LinearSolverFailure if there is
      * none, on all ranks. */
     static double
-    largest_eigenvalue(const Level &level);
+    largest_eigenvalue(Level &level);
 
     void
     make_work_space();

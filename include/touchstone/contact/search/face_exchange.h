@@ -45,6 +45,10 @@ namespace Touchstone
     void
     update(const std::vector<dealii::Point<dim>> &positions);
 
+    /** @brief Free the memory of the faces until the next update. */
+    void
+    forget();
+
     /** @brief Faces of the last update: of this rank, and near its slave nodes. */
     const std::vector<Face> &
     faces() const
