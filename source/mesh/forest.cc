@@ -4,6 +4,7 @@
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/forest.h>
+#include <touchstone/mesh/hanging_vertices.h>
 #include <touchstone/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
@@ -134,6 +135,10 @@ namespace Touchstone
     : mesh(make(input, scene_folder, communicator))
     , triangulation(*mesh)
   {
+    using Refinable = parallel::distributed::Triangulation<dim>;
+    if (auto *const refinable = dynamic_cast<Refinable *>(mesh.get());
+        refinable != nullptr && input.refines && input.discretisation.degree == 1)
+      keep_hanging_vertices(*refinable);
   }
 
 
