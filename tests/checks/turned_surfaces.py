@@ -178,6 +178,26 @@ ring = run("ring", folder / "ring.prm")
 told = sorted(text.split("'")[1] for text in ring.summary["warnings"] if "tied pair" in text)
 check(told == ["right", "upper"], f"ring: {ring.summary['warnings']}")
 
+# A tube that a tool holds at its shell and turns, refined at one end: nodes hang on curved edges.
+(folder / "refined.prm").write_text("""set Bodies        = inner
+set Obstacles     = tool
+set Contact pairs = shell
+subsection Obstacle tool
+  set Shape        = reference point
+  set Rotate angle = 60 * t
+end
+subsection Refinement
+  set Estimator = region
+  set Region    = z - 0.3
+  set Cycles    = 2
+end
+""" + TUBE.format(name="inner", inner=1, outer=1.5, cells=8) + HELD.format(
+    name="shell", body="inner", boundary="outer", tool="tool"), encoding="utf-8")
+for ranks in 1, 3:
+    energy = run(f"refined_{ranks}", folder / "refined.prm", {"Body inner/Geometry/Cells": "1, 8, 2"},
+                 ranks).column("energy: strain")
+    below(f"refined tube that turns, {ranks} rank(s): strain energy", abs(energy[-1]), 1e-10)
+
 # Before the turn and behind it. Where neighbours decide how far averaged rows follow the smallest gap, equation (29), displacements
 # are taken as they are and not as turned: that is seen with friction, which leaves more to them.
 for name, settings, ranks, bound in (
