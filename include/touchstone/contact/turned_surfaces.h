@@ -11,13 +11,12 @@
 namespace Touchstone
 {
   /**
-   * @brief Pairs whose surfaces have turned farther than what is measured on them can follow
-   * (doc/theory.md 4.6), each with place, size of the error and remedy, in words.
+   * @brief Tied pairs whose surfaces have turned farther than their rows can follow (doc/theory.md
+   * 4.6), each with place, size of the error and remedy, in words.
    *
-   * With exact surfaces the arch over a face, from the facet to the exact surface, keeps the
-   * direction of the reference state, equation (8); so does the distance that a tied pair is placed
-   * with where its rows leave it to itself (ContactPair::leave_offsets()), whose forces pass it
-   * without their moment. Both are rightly zero where nodes lie on each other.
+   * The distance that such a pair is placed with keeps the direction of the reference state where
+   * its rows leave it to itself (ContactPair::leave_offsets()), and forces pass it without their
+   * moment. It is zero where nodes lie on the other surface.
    *
    * The surfaces must be those of the last step. Collective.
    */
