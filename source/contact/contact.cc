@@ -110,6 +110,17 @@ namespace Touchstone
 
 
 
+  bool
+  Contact::leave_edges()
+  {
+    bool left = false;
+    for (const auto &pair : pairs)
+      left |= pair->leave_edges();
+    return Utilities::MPI::max(static_cast<int>(left), solid.communicator) == 1;
+  }
+
+
+
   void
   Contact::begin_again(const Vector &u, const double time)
   {

@@ -118,6 +118,8 @@ namespace Touchstone
     if (const NodesWithoutRows found = without_rows_finder->find(rows_of_all_nodes(u));
         !(found == without_rows))
       change_rows(found, u, time);
+    for (const auto &pair : pairs)
+      pair->begin_step();
   }
 
 

@@ -162,9 +162,9 @@ namespace Touchstone
     const Newton newton(parameters);
     const Vector first_guess(u);
     unsigned int n_iterations = 0;
-    // Each round adds points inside slave faces where the one before has missed contact, and leaves
-    // rows to others where pairs have come to meet; what is missed after the last is told of by
-    // findings().
+    // Each round adds points inside slave faces where the one before has missed contact, leaves
+    // rows to others where pairs have come to meet, and lets nodes go that have left their edges;
+    // what is missed after the last is told of by findings().
     constexpr unsigned int most_rounds = 10;
     for (unsigned int round = 0; round <= most_rounds; ++round)
       {
@@ -175,8 +175,9 @@ namespace Touchstone
           n_iterations += newton.solve(*this, observer, /*least=*/1);
         if (round == most_rounds)
           break;
-        const bool formed = contact.find_formed(u), points = place_points(contact);
-        if (!formed && !points)
+        const bool formed = contact.find_formed(u), left = contact.leave_edges(),
+                   points = !left && place_points(contact);
+        if (!formed && !left && !points)
           break;
         // The state without these points tells where they are and no more: bodies have sprung back
         // in it, or overlap deeply, and what a point carried when the step began is far away.

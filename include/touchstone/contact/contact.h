@@ -166,7 +166,13 @@ namespace Touchstone
     bool
     find_formed(const Vector &u);
 
-    /** @brief Return to the committed state, but with the material points that have rows now, and
+    /** @brief The last update() was in a state of balance: whether slave nodes have left edges of
+     * the master that they were to stay on in this step, which is to begin_again(). Collective. */
+    bool
+    leave_edges();
+
+    /** @brief Return to the committed state, but with the material points that have rows now,
+     * without the nodes that leave_edges() has found, and
      * with the rows that find_formed() asks for: the step is solved again. Collective.
      * @param u, time As for begin_step(). */
     void

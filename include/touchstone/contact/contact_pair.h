@@ -183,6 +183,20 @@ namespace Touchstone
     void
     commit_positions();
 
+    /** @brief A step begins, see Pairing::begin_step(). */
+    void
+    begin_step()
+    {
+      pairing_method->begin_step();
+    }
+
+    /** @brief See Pairing::leave_edges(). Rows of small sliding keep what they have. */
+    bool
+    leave_edges()
+    {
+      return !small && pairing_method->leave_edges();
+    }
+
     /** @brief Material points inside slave faces get rows where the master or an obstacle enters
      * between nodes (doc/theory.md 4.2). */
     bool

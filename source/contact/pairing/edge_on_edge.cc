@@ -94,7 +94,7 @@ namespace Touchstone
 
 
   // Angles in the plane across the master edge, from the middle between its two normals.
-  std::optional<EdgeOnEdge>
+  EdgeOnEdge
   EdgeOnEdge::on_edge(const SharpEdge  &own,
                       const SharpEdge  &other,
                       const Index       node,
@@ -102,9 +102,8 @@ namespace Touchstone
   {
     EdgeOnEdge           result;
     const Tensor<1, dim> e = other.b - other.a, own_edge = own.b - own.a;
-    if (cross_product_3d(e, own_edge).norm() >
-        Tolerances::parallel_sine * e.norm() * own_edge.norm())
-      return {};
+    result.touch = cross_product_3d(e, own_edge).norm() <=
+                   Tolerances::parallel_sine * e.norm() * own_edge.norm();
     result.nodes           = other.nodes;
     result.edge            = e;
     result.edge_face       = other.faces[0];
@@ -113,8 +112,7 @@ namespace Touchstone
     result.free            = (at > 0. && at < 1.);
     result.distance        = x - other.a - result.along * e;
     const Tensor<1, dim> t = e / e.norm();
-    if (std::abs(at - result.along) > Tolerances::touching)
-      return {};
+    result.beyond          = std::abs(at - result.along);
 
     // The normals of both sides of either edge.
     std::array<Side, 4>           all;
@@ -154,7 +152,7 @@ namespace Touchstone
     // lies within the other may be as narrow as it is, of an edge that has been pressed flat.
     const double common = angles[to] - angles[from];
     if (common < 0. || (common < Tolerances::edges_touch && (from < 2) != (to < 2)))
-      return {};
+      result.touch = false;
     result.sides  = {{all[from], all[to]}};
     result.normal = all[from].normal + all[to].normal;
     result.normal /= result.normal.norm();
@@ -164,14 +162,23 @@ namespace Touchstone
 
 
   bool
-  EdgeOnEdge::holds(const Point<dim> &start, const bool swept, const double size) const
+  EdgeOnEdge::stands() const
   {
-    const double gap    = distance * normal;
-    const double beside = (distance - gap * normal).norm();
+    return touch && beyond <= Tolerances::edge_hysteresis * reach.edge_tolerance &&
+           beside() <= Tolerances::touching * reach.size;
+  }
+
+
+
+  bool
+  EdgeOnEdge::holds(const Point<dim> &start, const bool swept) const
+  {
+    const double gap = distance * normal, size = reach.size;
     // Beside the edge it is a face that is touched. An iterate may carry the node deep into the
     // body, where the face that is closest would be decided by how it got there.
-    if (std::abs(gap) > Tolerances::onto_edge * size ||
-        beside > Tolerances::touching * size + Tolerances::beside_edge * std::max(0., -gap))
+    if (!reach.stays &&
+        (!touch || beyond > reach.edge_tolerance || std::abs(gap) > Tolerances::onto_edge * size ||
+         beside() > Tolerances::touching * size + Tolerances::beside_edge * std::max(0., -gap)))
       return false;
     // What was behind the edge before is the other side of a thin body.
     if (!swept || gap >= 0.)
@@ -193,14 +200,13 @@ namespace Touchstone
                    const Search     &search,
                    const SlavePoint &point,
                    const Index       node,
-                   const double      size)
+                   const Reach      &reach)
   {
     const std::vector<SharpEdge> own = edges_at(slave, node);
     if (own.empty())
       return {};
-    const double                                reach = Tolerances::onto_edge * size;
     std::vector<std::pair<double, std::size_t>> boxes;
-    search.tree().within(point.x, reach, boxes);
+    search.tree().within(point.x, Tolerances::onto_edge * reach.size, boxes);
     std::vector<const Face *> near;
     for (const auto &[square, i] : boxes)
       near.push_back(&search.exchange().faces()[i]);
@@ -210,13 +216,14 @@ namespace Touchstone
       if (may_stand_on(point, other))
         for (const SharpEdge &edge : own)
           {
-            const auto found = on_edge(edge, other, node, point.x);
-            if (!found || !found->holds(point.start, search.exchange().swept(), size))
+            EdgeOnEdge found = on_edge(edge, other, node, point.x);
+            found.reach      = reach;
+            if (!found.holds(point.start, search.exchange().swept()))
               continue;
             const double difference =
-              result ? found->distance.norm() - result->distance.norm() : -size;
+              result ? found.distance.norm() - result->distance.norm() : -reach.size;
             // Edges that go on in each other at a node are equally close.
-            const bool same = std::abs(difference) < Tolerances::on_edge * size;
+            const bool same = std::abs(difference) < Tolerances::on_edge * reach.size;
             if (same ? other.key < key : difference < 0.)
               {
                 result = found;

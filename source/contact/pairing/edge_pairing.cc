@@ -55,6 +55,21 @@ namespace Touchstone
       }
 
       void
+      begin_step() override
+      {
+        of_nodes->begin_step();
+        if (on_edges)
+          on_edges->decisions().begin_step();
+      }
+
+      bool
+      leave_edges() override
+      {
+        const bool first = of_nodes->leave_edges();
+        return (on_edges && on_edges->decisions().leave()) || first;
+      }
+
+      void
       rollback() override
       {
         of_nodes->rollback();
@@ -71,6 +86,8 @@ namespace Touchstone
       {
         PairingMemory result = of_nodes->memory();
         result.of_rows.resize(n);
+        if (on_edges)
+          on_edges->decisions().save(result.of_rows);
         result.of_rows.insert(result.of_rows.end(), keys.begin(), keys.end());
         return result;
       }
@@ -80,6 +97,8 @@ namespace Touchstone
       {
         PairingMemory first = memory;
         first.of_rows.resize(n);
+        if (on_edges)
+          on_edges->decisions().load(first.of_rows);
         of_nodes->remember(first);
         keys.assign(memory.of_rows.begin() + n, memory.of_rows.end());
       }

@@ -16,7 +16,7 @@ namespace Touchstone
              input.parameters->edge_tolerance,
              MasterNormal::face,
              input.solid->communicator)
-    , edges(input.slave->owned_nodes().size())
+    , edges(input)
   {
     search.commit(nullptr);
     for (const SurfaceNode &node : input.slave->owned_nodes())
@@ -32,6 +32,7 @@ namespace Touchstone
     const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
     for (std::size_t k = 0; k < nodes.size(); ++k)
       start[k] = input.slave->position(nodes[k], u);
+    edges.commit();
   }
 
 
@@ -49,7 +50,8 @@ namespace Touchstone
           positions.push_back(input.slave->position(nodes[k], u));
         }
     search.update(positions);
-    std::fill(edges.begin(), edges.end(), std::nullopt);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      edges.clear(k);
     for (std::size_t i = 0; i < on_edges.size(); ++i)
       {
         const std::size_t k   = on_edges[i];
@@ -57,8 +59,7 @@ namespace Touchstone
         SlavePoint        point;
         point.x     = positions[i];
         point.start = start[k];
-        edges[k]    = EdgeOnEdge::find(*input.slave, search, point, nodes[k].node, row.size);
-        if (!edges[k])
+        if (!edges.find(k, search, point, row.size))
           continue;
         row.has_partner = true;
         row.stencil.clear();
@@ -68,6 +69,7 @@ namespace Touchstone
         row.away  = 0.;
         edges[k]->set(row);
       }
+    edges.end_update();
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/aggregated_rows.h>
-#include <touchstone/contact/pairing/edge_on_edge.h>
+#include <touchstone/contact/pairing/edges_under_nodes.h>
 #include <touchstone/contact/pairing/end_of_surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
@@ -32,6 +32,7 @@ namespace Touchstone
                  input.parameters->master_normal,
                  input.solid->communicator)
         , aggregated(input)
+        , edges(input)
       {
         search.commit(nullptr);
         for (const SurfaceNode &node : input.slave->owned_nodes())
@@ -53,6 +54,19 @@ namespace Touchstone
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           start[k] = input.slave->position(nodes[k], u);
+        edges.commit();
+      }
+
+      void
+      begin_step() override
+      {
+        edges.begin_step();
+      }
+
+      bool
+      leave_edges() override
+      {
+        return edges.leave();
       }
 
       void
@@ -70,13 +84,16 @@ namespace Touchstone
       PairingMemory
       memory() const override
       {
-        return {present_faces, {}};
+        PairingMemory result{present_faces, {}};
+        edges.save(result.of_rows);
+        return result;
       }
 
       void
       remember(const PairingMemory &memory) override
       {
         present_faces = memory.of_rows;
+        edges.load(present_faces);
       }
 
       SearchWork
@@ -93,7 +110,7 @@ namespace Touchstone
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
       /** And the edges that nodes stand on, which take the place of partners. */
-      std::vector<std::optional<EdgeOnEdge>> edges;
+      EdgesUnderNodes edges;
       /** Keys of the faces that were the partners of the nodes in the last update. */
       std::vector<std::optional<std::uint64_t>> present_faces;
       /** And their indices in the search, where they are most likely found again. */
@@ -147,13 +164,12 @@ namespace Touchstone
       all.insert(all.end(), start.begin(), start.end());
       search.update(all);
       partners.resize(nodes.size());
-      edges.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow      &row   = rows[k];
           const SlavePoint point = slave_point(k, positions[k], row);
           row.stencil.clear();
-          if ((edges[k] = EdgeOnEdge::find(*input.slave, search, point, row.slave, row.size)))
+          if (edges.find(k, search, point, row.size))
             {
               // Which of the faces beside the edge comes after it is not known.
               partners[k].reset();
@@ -181,6 +197,7 @@ namespace Touchstone
           row.has_partner = true;
           set_pointwise_row(*partner, positions[k], row);
         }
+      edges.end_update();
       aggregated.aggregate(rows);
     }
 

@@ -35,15 +35,31 @@ namespace Touchstone
     static bool
     at_sharp_edge(const Surface &slave, Index node);
 
+    /** @brief How far from an edge a node may be. */
+    struct Reach
+    {
+      /** Of the faces of the node, length. */
+      double size = 0.;
+      /** How far beyond the end of an edge, as a part of it. */
+      double edge_tolerance = 0.;
+      /** The node stays on the edge that it stood on, wherever an iterate has carried it. */
+      bool stays = false;
+    };
+
     /** @brief The edge that a slave node stands on or is about to, in the last update of the
      * search.
-     * @param node Of the slave surface, owned by this rank. @param size Of its faces, length. */
+     * @param node Of the slave surface, owned by this rank. */
     static std::optional<EdgeOnEdge>
     find(const Surface    &slave,
          const Search     &search,
          const SlavePoint &point,
          Index             node,
-         double            size);
+         const Reach      &reach);
+
+    /** @brief Whether the node lies on the edge within tolerances, or in front of it along the
+     * normal. */
+    bool
+    stands() const;
 
     /** @brief Set stencil, normal, gap vector and gap; the stencil is empty before. */
     void
@@ -76,16 +92,28 @@ namespace Touchstone
     const Face *edge_face = nullptr;
     double      along     = 0.;
     /** It can move along the edge. */
-    bool                   free = true;
+    bool free = true;
+    /** How far it is beyond the end of the edge, as a part of it. */
+    double beyond = 0.;
+    /** The edges touch each other and not a face the edge. */
+    bool                   touch = true;
+    Reach                  reach;
     dealii::Tensor<1, dim> distance, normal;
     std::array<Side, 2>    sides;
 
-    static std::optional<EdgeOnEdge>
+    static EdgeOnEdge
     on_edge(const SharpEdge &own, const SharpEdge &other, Index node, const dealii::Point<dim> &x);
+    /** Distance from the line of the edge across the normal, length. */
+    double
+    beside() const
+    {
+      return (distance - (distance * normal) * normal).norm();
+    }
     /** Whether a node lies on the line of the edge but for tolerances, along the normal in front of
-     * it or where it has come to since the step began. @param start Of the node in the step. */
+     * it or where it has come to since the step began, or stays there.
+     * @param start Of the node in the step. */
     bool
-    holds(const dealii::Point<dim> &start, bool swept, double size) const;
+    holds(const dealii::Point<dim> &start, bool swept) const;
     dealii::Tensor<1, dim>
     sum_of_normals(const Side &side) const;
   };

@@ -3,10 +3,9 @@
 #ifndef touchstone_contact_pairing_nodes_on_edges_h
 #define touchstone_contact_pairing_nodes_on_edges_h
 
-#include <touchstone/contact/pairing/edge_on_edge.h>
+#include <touchstone/contact/pairing/edges_under_nodes.h>
 #include <touchstone/contact/pairing/pairing.h>
 
-#include <optional>
 #include <vector>
 
 namespace Touchstone
@@ -38,6 +37,18 @@ namespace Touchstone
       return edges[k].has_value();
     }
 
+    /** @brief Which of the nodes stay on their edges in a step. */
+    EdgesUnderNodes &
+    decisions()
+    {
+      return edges;
+    }
+    const EdgesUnderNodes &
+    decisions() const
+    {
+      return edges;
+    }
+
     /** @brief The derivatives of the replaced rows that are active. Collective. */
     void
     differentiate(std::vector<ContactRow> &rows);
@@ -54,7 +65,7 @@ namespace Touchstone
     /** Positions of the slave nodes at the start of the step. */
     std::vector<dealii::Point<dim>> start;
     /** What the nodes stand on since the last update. */
-    std::vector<std::optional<EdgeOnEdge>> edges;
+    EdgesUnderNodes edges;
   };
 } // namespace Touchstone
 

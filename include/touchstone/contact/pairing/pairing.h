@@ -121,6 +121,22 @@ namespace Touchstone
     {
     }
 
+    /** @brief A step begins, or is tried again with another length; not where it begins again
+     * because of what a state of balance has shown. */
+    virtual void
+    begin_step()
+    {
+    }
+
+    /** @brief The last update() was in a state of balance: which slave nodes have left edges that
+     * they were to stay on, see EdgesUnderNodes. @return Whether the step is to begin again on
+     * account of nodes of this rank. */
+    virtual bool
+    leave_edges()
+    {
+      return false;
+    }
+
     /** @brief The step begins again from the committed state. */
     virtual void
     rollback()

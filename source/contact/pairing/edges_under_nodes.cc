@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/pairing/edges_under_nodes.h>
+
+#include <limits>
+
+// Which slave nodes stay on the edges that they stand on (doc/theory.md 4.2, "Parallel edges").
+namespace Touchstone
+{
+  namespace
+  {
+    /** Takes the place of the key of a face, which a node on an edge does not have. */
+    constexpr std::uint64_t on_edge = std::numeric_limits<std::uint64_t>::max();
+  } // namespace
+
+
+
+  EdgesUnderNodes::EdgesUnderNodes(const PairingInput &input)
+    : slave(*input.slave)
+    , edge_tolerance(input.parameters->edge_tolerance)
+    , edges(slave.owned_nodes().size())
+    , stood(edges.size(), false)
+    , has_left(edges.size(), false)
+  {
+  }
+
+
+
+  bool
+  EdgesUnderNodes::find(const std::size_t k,
+                        const Search     &search,
+                        const SlavePoint &point,
+                        const double      size)
+  {
+    edges[k] = EdgeOnEdge::find(slave,
+                                search,
+                                point,
+                                slave.owned_nodes()[k].node,
+                                {size, edge_tolerance, stood[k] && !has_left[k]});
+    return edges[k].has_value();
+  }
+
+
+
+  void
+  EdgesUnderNodes::end_update()
+  {
+    // The first step begins with the bodies as they are placed.
+    if (!started)
+      commit();
+  }
+
+
+
+  void
+  EdgesUnderNodes::commit()
+  {
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      stood[k] = edges[k] && edges[k]->stands();
+    started = true;
+    begin_step();
+  }
+
+
+
+  void
+  EdgesUnderNodes::begin_step()
+  {
+    has_left.assign(edges.size(), false);
+  }
+
+
+
+  bool
+  EdgesUnderNodes::leave()
+  {
+    bool changed = false;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (stood[k] && !has_left[k] && edges[k] && !edges[k]->stands())
+        {
+          has_left[k] = true;
+          changed     = true;
+        }
+    return changed;
+  }
+
+
+
+  void
+  EdgesUnderNodes::save(std::vector<std::optional<std::uint64_t>> &of_rows) const
+  {
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (stood[k])
+        of_rows[k] = on_edge;
+  }
+
+
+
+  void
+  EdgesUnderNodes::load(std::vector<std::optional<std::uint64_t>> &of_rows)
+  {
+    for (std::size_t k = 0; k < edges.size() && k < of_rows.size(); ++k)
+      {
+        stood[k] = (of_rows[k] == on_edge);
+        if (stood[k])
+          of_rows[k].reset();
+      }
+    started = true;
+    begin_step();
+  }
+} // namespace Touchstone
