@@ -167,12 +167,6 @@ namespace Touchstone
   {
     if (!anywhere)
       return;
-    for (const auto &[node, k] : rows_of_nodes)
-      {
-        rows[k].area  = input.slave->owned_nodes()[k].area;
-        rows[k].share = 1.;
-        rows[k].lever = Tensor<1, dim>();
-      }
     ask_for_rows(rows);
     const std::map<std::size_t, double> left = divide_areas();
     ask_for_stencils(rows);

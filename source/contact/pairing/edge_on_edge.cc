@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/edge_on_edge.h>
-#include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/tolerances.h>
-
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,49 +81,70 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  EdgeOnEdge::sum_of_normals(const Side &side) const
+  EdgeOnEdge::EdgeOnEdge(const SharpEdge  &own,
+                         const SharpEdge  &master,
+                         const Index       node,
+                         const Point<dim> &x,
+                         const Reach      &reach)
+    : slave(node)
+    , other(own.nodes[own.nodes[0] == node ? 1 : 0])
+    , slave_edge(own.nodes[0] == node ? own.a - own.b : own.b - own.a)
+    , nodes(master.nodes)
+    , edge(master.b - master.a)
+    , edge_face(master.faces[0])
+    , touch(cross_product_3d(edge, slave_edge).norm() <=
+            Tolerances::parallel_sine * edge.norm() * slave_edge.norm())
+    , reach(reach)
   {
-    return side.sign * ((1. - along) * side.face->normals[side.corners[0]] +
-                        along * side.face->normals[side.corners[1]]);
+    set_point(master, x);
+    set_normal(own, master);
+  }
+
+
+
+  void
+  EdgeOnEdge::set_point(const SharpEdge &master, const Point<dim> &x)
+  {
+    const double at = (x - master.a) * edge / edge.norm_square();
+    along           = std::clamp(at, 0., 1.);
+    free            = (at > 0. && at < 1.);
+    beyond          = std::abs(at - along);
+    distance        = x - master.a - along * edge;
+    if (beyond <= Tolerances::on_edge)
+      return;
+    // The end of the master edge touches the slave edge between its nodes. Where it is close to the
+    // other node, the row of that is enough.
+    const double foot = 1. - distance * slave_edge / slave_edge.norm_square();
+    if (foot >= 1. || (foot < Tolerances::least_share && !reach.stays))
+      return;
+    over_end = true;
+    weight   = std::max(foot, Tolerances::least_share);
+    free     = (foot == weight);
+    beyond   = weight - foot;
+    distance -= (1. - weight) * slave_edge;
   }
 
 
 
   // Angles in the plane across the master edge, from the middle between its two normals.
-  EdgeOnEdge
-  EdgeOnEdge::on_edge(const SharpEdge  &own,
-                      const SharpEdge  &other,
-                      const Index       node,
-                      const Point<dim> &x)
+  void
+  EdgeOnEdge::set_normal(const SharpEdge &own, const SharpEdge &master)
   {
-    EdgeOnEdge           result;
-    const Tensor<1, dim> e = other.b - other.a, own_edge = own.b - own.a;
-    result.touch = cross_product_3d(e, own_edge).norm() <=
-                   Tolerances::parallel_sine * e.norm() * own_edge.norm();
-    result.nodes           = other.nodes;
-    result.edge            = e;
-    result.edge_face       = other.faces[0];
-    const double at        = (x - other.a) * e / e.norm_square();
-    result.along           = std::clamp(at, 0., 1.);
-    result.free            = (at > 0. && at < 1.);
-    result.distance        = x - other.a - result.along * e;
-    const Tensor<1, dim> t = e / e.norm();
-    result.beyond          = std::abs(at - result.along);
-
+    const Tensor<1, dim> t = edge / edge.norm();
     // The normals of both sides of either edge.
     std::array<Side, 4>           all;
     std::array<Tensor<1, dim>, 4> across;
     for (unsigned int k = 0; k < 4; ++k)
       {
         const bool  of_slave = (k >= 2);
-        const Face &face     = *(of_slave ? own : other).faces[k % 2];
+        const Face &face     = *(of_slave ? own : master).faces[k % 2];
         Side       &side     = all[k];
         side.face            = &face;
         side.sign            = (of_slave ? -1. : 1.);
-        side.corners         = {{face.number_of(of_slave ? node : other.nodes[0]),
-                                 face.number_of(of_slave ? node : other.nodes[1])}};
-        side.normal          = result.sum_of_normals(side);
+        side.corners         = {{face.number_of(of_slave ? slave : nodes[0]),
+                                 face.number_of(of_slave ? other : nodes[1])}};
+        side.weights         = {{of_slave ? weight : 1. - along, of_slave ? 1. - weight : along}};
+        side.normal          = side.sum_of_normals();
         side.normal /= side.normal.norm();
         across[k] = side.normal - (side.normal * t) * t;
         across[k] /= across[k].norm();
@@ -152,11 +170,33 @@ namespace Touchstone
     // lies within the other may be as narrow as it is, of an edge that has been pressed flat.
     const double common = angles[to] - angles[from];
     if (common < 0. || (common < Tolerances::edges_touch && (from < 2) != (to < 2)))
-      result.touch = false;
-    result.sides  = {{all[from], all[to]}};
-    result.normal = all[from].normal + all[to].normal;
-    result.normal /= result.normal.norm();
-    return result;
+      touch = false;
+    sides  = {{all[from], all[to]}};
+    normal = all[from].normal + all[to].normal;
+    normal /= normal.norm();
+  }
+
+
+
+  double
+  EdgeOnEdge::beside() const
+  {
+    return (distance - (distance * normal) * normal).norm();
+  }
+
+
+
+  Tensor<1, dim>
+  EdgeOnEdge::distance_at_start(const Point<dim> &start) const
+  {
+    std::array<Point<dim>, 2> x;
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        const unsigned int m = edge_face->number_of(nodes[k]);
+        x[k]                 = edge_face->reference[m] + edge_face->committed[m];
+      }
+    const Tensor<1, dim> t = (x[1] - x[0]) / (x[1] - x[0]).norm(), from_end = start - x[0];
+    return from_end - (from_end * t) * t;
   }
 
 
@@ -173,24 +213,42 @@ namespace Touchstone
   bool
   EdgeOnEdge::holds(const Point<dim> &start, const bool swept) const
   {
-    const double gap = distance * normal, size = reach.size;
+    const double gap = distance * normal;
     // Beside the edge it is a face that is touched. An iterate may carry the node deep into the
     // body, where the face that is closest would be decided by how it got there.
-    if (!reach.stays &&
-        (!touch || beyond > reach.edge_tolerance || std::abs(gap) > Tolerances::onto_edge * size ||
-         beside() > Tolerances::touching * size + Tolerances::beside_edge * std::max(0., -gap)))
+    if (!reach.stays && (!touch || beyond > reach.edge_tolerance ||
+                         std::abs(gap) > Tolerances::onto_edge * reach.size ||
+                         beside() > Tolerances::touching * reach.size +
+                                      Tolerances::beside_edge * std::max(0., -gap)))
       return false;
     // What was behind the edge before is the other side of a thin body.
-    if (!swept || gap >= 0.)
-      return true;
-    Tensor<1, dim> before = start - Point<dim>();
-    for (unsigned int k = 0; k < 2; ++k)
-      {
-        const unsigned int m = edge_face->number_of(nodes[k]);
-        before -= (k == 0 ? 1. - along : along) *
-                  (edge_face->reference[m] + edge_face->committed[m] - Point<dim>());
-      }
-    return before * normal > -Tolerances::deep_edge * size;
+    return !swept || gap >= 0. ||
+           distance_at_start(start) * normal > -Tolerances::deep_edge * reach.size;
+  }
+
+
+
+  int
+  EdgeOnEdge::better_than(const EdgeOnEdge &best, const Point<dim> &start) const
+  {
+    // A node that stays does so on the line of edges that it stood on, even if an iterate is closer
+    // to another one.
+    const double at_start =
+      reach.stays ? distance_at_start(start).norm() - best.distance_at_start(start).norm() : 0.;
+    if (std::abs(at_start) > 0.5 * reach.size)
+      return at_start < 0. ? 1 : -1;
+    if (touch != best.touch)
+      return touch ? 1 : -1;
+    // Where an edge goes on in another one it has no end: that of the last one is closest.
+    if (over_end != best.over_end)
+      return over_end ? -1 : 1;
+    if (over_end && std::abs(weight - best.weight) > Tolerances::on_edge)
+      return weight > best.weight ? 1 : -1;
+    // Edges that go on in each other at a node are equally close.
+    const double closer = best.distance.norm() - distance.norm();
+    if (std::abs(closer) < Tolerances::on_edge * reach.size)
+      return 0;
+    return closer > 0. ? 1 : -1;
   }
 
 
@@ -212,22 +270,18 @@ namespace Touchstone
       near.push_back(&search.exchange().faces()[i]);
     std::optional<EdgeOnEdge> result;
     std::uint64_t             key = 0;
-    for (const SharpEdge &other : sharp_edges(near, Tolerances::sharp_edge_cosine))
-      if (may_stand_on(point, other))
+    for (const SharpEdge &master : sharp_edges(near, Tolerances::sharp_edge_cosine))
+      if (may_stand_on(point, master))
         for (const SharpEdge &edge : own)
           {
-            EdgeOnEdge found = on_edge(edge, other, node, point.x);
-            found.reach      = reach;
+            const EdgeOnEdge found(edge, master, node, point.x, reach);
             if (!found.holds(point.start, search.exchange().swept()))
               continue;
-            const double difference =
-              result ? found.distance.norm() - result->distance.norm() : -reach.size;
-            // Edges that go on in each other at a node are equally close.
-            const bool same = std::abs(difference) < Tolerances::on_edge * reach.size;
-            if (same ? other.key < key : difference < 0.)
+            const int better = result ? found.better_than(*result, point.start) : 1;
+            if (better > 0 || (better == 0 && master.key < key))
               {
                 result = found;
-                key    = other.key;
+                key    = master.key;
               }
           }
     return result;
@@ -235,86 +289,24 @@ namespace Touchstone
 
 
 
+  // With the weight W of the slave node at the point of contact all of the row is divided by W, as
+  // in (30).
   void
   EdgeOnEdge::set(ContactRow &row) const
   {
-    for (unsigned int k = 0; k < 2; ++k)
-      if (const double weight = (k == 0 ? 1. - along : along);
-          weight > Tolerances::negligible_weight)
-        row.stencil.push_back({nodes[k], weight});
+    const auto add = [&row](const Index node, const double w) {
+      if (std::abs(w) > Tolerances::negligible_weight)
+        row.stencil.push_back({node, w});
+    };
+    add(nodes[0], (1. - along) / weight);
+    add(nodes[1], along / weight);
+    if (over_end)
+      add(other, 1. - 1. / weight);
     row.normal     = normal;
-    row.gap_vector = distance;
-    row.gap        = distance * normal;
-  }
-
-
-
-  void
-  EdgeOnEdge::add_faces(std::vector<const Face *> &faces) const
-  {
-    for (const Side &side : sides)
-      if (side.sign > 0.)
-        faces.push_back(side.face);
-  }
-
-
-
-  // d = x - y_0 - a e with d.e = 0 gives da; the normal is the direction of the sum of two unit
-  // vectors.
-  void
-  EdgeOnEdge::differentiate(const Surface   &slave,
-                            const OfNormals &of_normals,
-                            ContactRow      &row) const
-  {
-    // Where the node stands on an end of the edge, the weight of the other end is zero but changes.
-    for (const Index node : nodes)
-      if (std::none_of(row.stencil.begin(), row.stencil.end(), [node](const auto &entry) {
-            return entry.node == node;
-          }))
-        row.stencil.push_back({node, 0.});
-    RowDerivativeBuilder builder(row.stencil.size());
-    RowDerivative       &result = *builder.result;
-    const Tensor<2, dim> turn   = normalisation_derivative(sides[0].normal + sides[1].normal);
-    std::array<Tensor<2, dim>, 2> by_side;
-    Tensor<1, dim>                by_along;
-    for (unsigned int k = 0; k < 2; ++k)
-      {
-        const Side &side = sides[k];
-        by_side[k]       = side.sign * (turn * normalisation_derivative(sum_of_normals(side)));
-        by_along +=
-          by_side[k] * (side.face->normals[side.corners[1]] - side.face->normals[side.corners[0]]);
-      }
-    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-    // Of each node with unit motion the motion of d at a fixed foot, and of e.
-    const Index  moved[3]   = {row.slave, nodes[0], nodes[1]};
-    const double at_foot[3] = {1., along - 1., -along}, of_edge[3] = {0., -1., 1.};
-    for (unsigned int k = 0; k < 3; ++k)
-      {
-        Tensor<1, dim> da;
-        if (free)
-          da = (at_foot[k] * edge + of_edge[k] * distance) / edge.norm_square();
-        const std::size_t i = builder.index(moved[k]);
-        result.gap_vector[i] += at_foot[k] * identity - outer_product(edge, da);
-        result.normal[i] += outer_product(by_along, da);
-        for (std::size_t m = 0; m < row.stencil.size(); ++m)
-          result.weights[m][i] += (row.stencil[m].node == nodes[0] ? -1. : 1.) * da;
-      }
-    for (unsigned int k = 0; k < 2; ++k)
-      for (unsigned int end = 0; end < 2; ++end)
-        {
-          const Side          &side   = sides[k];
-          const Tensor<2, dim> by_end = (end == 0 ? 1. - along : along) * by_side[k];
-          if (side.sign < 0.)
-            {
-              for (const auto &[node, value] :
-                   slave.normal_derivative(slave.normal_shares(*side.face, side.corners[end])))
-                result.normal[builder.index(node)] += by_end * value;
-            }
-          else if (const auto found = of_normals.find(side.face); found != of_normals.end())
-            for (const NormalDerivative &d : found->second)
-              if (d.m == side.corners[end])
-                result.normal[builder.index(d.node)] += by_end * d.value;
-        }
-    row.derivative = builder.result;
+    row.share      = 1. / weight;
+    row.lever      = (weight - 1.) * slave_edge;
+    row.area       = weight * row.area;
+    row.gap_vector = distance / weight;
+    row.gap        = row.gap_vector * normal;
   }
 } // namespace Touchstone

@@ -169,6 +169,9 @@ namespace Touchstone
           ContactRow      &row   = rows[k];
           const SlavePoint point = slave_point(k, positions[k], row);
           row.stencil.clear();
+          row.share = 1.;
+          row.lever = Tensor<1, dim>();
+          row.area  = nodes[k].area;
           if (edges.find(k, search, point, row.size))
             {
               // Which of the faces beside the edge comes after it is not known.

@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
 
@@ -23,6 +24,9 @@ namespace Touchstone
    * round-off of the edge, beyond which the normal jumps by up to the angle of the edge. The force
    * must be normal to both surfaces, so the normal of the row is the middle of the directions that
    * are normal to both edges.
+   *
+   * Where the slave edge hangs over the end of the master edge it is this end that touches, between
+   * the first node beyond it, whose row this is, and its neighbour.
    */
   class EdgeOnEdge
   {
@@ -61,7 +65,9 @@ namespace Touchstone
     bool
     stands() const;
 
-    /** @brief Set stencil, normal, gap vector and gap; the stencil is empty before. */
+    /** @brief Set stencil, normal, gap vector and gap, and share, lever and area where the end of
+     * the master edge touches; the stencil is empty before, area and share are those of the node.
+     */
     void
     set(ContactRow &row) const;
 
@@ -74,48 +80,85 @@ namespace Touchstone
     differentiate(const Surface &slave, const OfNormals &of_normals, ContactRow &row) const;
 
   private:
-    /** One of the two normals whose middle is that of the row: of a face at its node or between the
-     * two nodes of an edge. */
+    /** One of the two normals whose middle is that of the row: of a face between the two nodes of
+     * an edge. */
     struct Side
     {
       const Face                 *face;
       std::array<unsigned int, 2> corners;
+      std::array<double, 2>       weights;
       /** Of the slave surface, against which it points: -1, else 1. */
       double                 sign;
       dealii::Tensor<1, dim> normal;
+
+      dealii::Tensor<1, dim>
+      sum_of_normals() const
+      {
+        return sign *
+               (weights[0] * face->normals[corners[0]] + weights[1] * face->normals[corners[1]]);
+      }
     };
 
-    /** The master edge, from node 0 to node 1, and the fraction at which the node stands. */
+    /** How the point of contact changes with the position of a node. */
+    struct Motion
+    {
+      Index                  node;
+      dealii::Tensor<2, dim> distance;
+      /** Of the fraction `along` or, over the end, of `weight`; per length. */
+      dealii::Tensor<1, dim> fraction;
+    };
+
+    /** The slave edge, from the other node to that of the row, and the weight of the latter where
+     * it touches: one, unless the edge hangs over the end of the master edge. */
+    Index                  slave = invalid_index, other = invalid_index;
+    dealii::Tensor<1, dim> slave_edge;
+    bool                   over_end = false;
+    double                 weight   = 1.;
+    /** The master edge, from node 0 to node 1, and the fraction at which it is touched. */
     std::array<Index, 2>   nodes;
     dealii::Tensor<1, dim> edge;
+    double                 along = 0.;
     /** One of the faces that meet in it. */
     const Face *edge_face = nullptr;
-    double      along     = 0.;
-    /** It can move along the edge. */
-    bool free = true;
-    /** How far it is beyond the end of the edge, as a part of it. */
+    /** The point of contact can move along the master edge or, over its end, along the slave edge;
+     * else how far it is beyond the end of that, as a part of it. */
+    bool   free   = true;
     double beyond = 0.;
-    /** The edges touch each other and not a face the edge. */
+    /** From the point of the master edge to that of the slave edge. */
+    dealii::Tensor<1, dim> distance;
+    /** The edges are parallel and touch each other, and no face. */
     bool                   touch = true;
-    Reach                  reach;
-    dealii::Tensor<1, dim> distance, normal;
+    dealii::Tensor<1, dim> normal;
     std::array<Side, 2>    sides;
+    Reach                  reach;
 
-    static EdgeOnEdge
-    on_edge(const SharpEdge &own, const SharpEdge &other, Index node, const dealii::Point<dim> &x);
+    EdgeOnEdge(const SharpEdge          &own,
+               const SharpEdge          &master,
+               Index                     node,
+               const dealii::Point<dim> &x,
+               const Reach              &reach);
+    /** Set the point of contact. @param x Of the node. */
+    void
+    set_point(const SharpEdge &master, const dealii::Point<dim> &x);
+    /** Set the normal. */
+    void
+    set_normal(const SharpEdge &own, const SharpEdge &master);
+    /** From the line of the master edge to the node when the step began, at @p start. */
+    dealii::Tensor<1, dim>
+    distance_at_start(const dealii::Point<dim> &start) const;
     /** Distance from the line of the edge across the normal, length. */
     double
-    beside() const
-    {
-      return (distance - (distance * normal) * normal).norm();
-    }
-    /** Whether a node lies on the line of the edge but for tolerances, along the normal in front of
-     * it or where it has come to since the step began, or stays there.
-     * @param start Of the node in the step. */
+    beside() const;
+    /** Whether the node can have the row: it lies on the line of the edge but for tolerances, along
+     * the normal in front of it or where it has come to since the step began, or stays there. */
     bool
     holds(const dealii::Point<dim> &start, bool swept) const;
-    dealii::Tensor<1, dim>
-    sum_of_normals(const Side &side) const;
+    /** Whether it is a better choice than another one, apart from keys of the edges: 1, else -1, or
+     * 0 if both are as good. */
+    int
+    better_than(const EdgeOnEdge &best, const dealii::Point<dim> &start) const;
+    std::vector<Motion>
+    motions() const;
   };
 } // namespace Touchstone
 
