@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <utility>
 
 // Slave nodes of sharp edges that stand on sharp edges of the master (doc/theory.md 4.2, "Parallel
@@ -204,6 +205,7 @@ namespace Touchstone
   bool
   EdgeOnEdge::stands() const
   {
+    if (getenv("EDBG")) std::cerr << "stands? node " << slave << " master " << nodes[0] << "-" << nodes[1] << " along " << along << " over " << over_end << " weight " << weight << " touch " << touch << " beyond " << beyond << " beside/size " << beside()/reach.size << " gap " << distance*normal << " n " << normal << std::endl;
     return touch && beyond <= Tolerances::edge_hysteresis * reach.edge_tolerance &&
            beside() <= Tolerances::touching * reach.size;
   }
@@ -240,8 +242,11 @@ namespace Touchstone
     if (touch != best.touch)
       return touch ? 1 : -1;
     // Where an edge goes on in another one it has no end: that of the last one is closest.
-    if (over_end != best.over_end)
-      return over_end ? -1 : 1;
+    const auto kind = [](const EdgeOnEdge &one) {
+      return one.over_end ? 1 : one.beyond > Tolerances::on_edge ? 2 : 0;
+    };
+    if (kind(*this) != kind(best))
+      return kind(*this) < kind(best) ? 1 : -1;
     if (over_end && std::abs(weight - best.weight) > Tolerances::on_edge)
       return weight > best.weight ? 1 : -1;
     // Edges that go on in each other at a node are equally close.
