@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <utility>
 
 // Slave nodes of sharp edges that stand on sharp edges of the master (doc/theory.md 4.2, "Parallel
@@ -205,7 +204,6 @@ namespace Touchstone
   bool
   EdgeOnEdge::stands() const
   {
-    if (getenv("EDBG")) std::cerr << "stands? node " << slave << " master " << nodes[0] << "-" << nodes[1] << " along " << along << " over " << over_end << " weight " << weight << " touch " << touch << " beyond " << beyond << " beside/size " << beside()/reach.size << " gap " << distance*normal << " n " << normal << std::endl;
     return touch && beyond <= Tolerances::edge_hysteresis * reach.edge_tolerance &&
            beside() <= Tolerances::touching * reach.size;
   }

@@ -81,6 +81,12 @@ namespace Touchstone
       void
       differentiate(const Vector &u, double time, std::vector<ContactRow> &rows) override;
 
+      bool
+      on_edge(const std::size_t k) const override
+      {
+        return on_edges ? on_edges->replaces(k) : of_nodes->on_edge(k);
+      }
+
       PairingMemory
       memory() const override
       {
@@ -201,36 +207,41 @@ namespace Touchstone
 
 
     // A vertex in a face one of whose nodes touches the master needs no row: those of the nodes
-    // hold the face already. Rows of nodes may belong to other ranks. Collective.
+    // hold the face already, and so do those of nodes on parallel edges the slave edge between
+    // them. Rows of nodes may belong to other ranks. Collective.
     void
     EdgePairing::drop_covered(const std::vector<ContactRow>  &rows,
                               std::vector<FoundBetweenNodes> &found)
     {
-      const bool any = std::any_of(found.begin(), found.end(), [](const FoundBetweenNodes &one) {
-        return one.of_vertex;
-      });
-      if (Utilities::MPI::max(static_cast<int>(any), input.solid->communicator) == 0)
+      if (Utilities::MPI::max(static_cast<int>(!found.empty()), input.solid->communicator) == 0)
         return;
-      Vector touches(input.solid->zero_vector());
+      enum
+      {
+        touches,
+        stands_on_edge
+      };
+      Vector flags(input.solid->zero_vector());
       for (std::size_t k = 0; k < n; ++k)
-        if (rows[k].has_partner && rows[k].gap < Tolerances::touching * rows[k].size &&
-            !oblique(rows[k]))
-          touches(dim * rows[k].slave) = 1.;
-      touches.compress(VectorOperation::insert);
-      const Vector ghosted = input.solid->ghosted(touches);
-      found.erase(std::remove_if(found.begin(),
-                                 found.end(),
-                                 [&](const FoundBetweenNodes &one) {
-                                   // The row of a node at the point is replaced.
-                                   return one.of_vertex && !one.held &&
-                                          std::any_of(one.nodes.begin(),
-                                                      one.nodes.end(),
-                                                      [&](const auto &node) {
-                                                        return node.second < Tolerances::at_node &&
-                                                               ghosted(dim * node.first) == 1.;
-                                                      });
-                                 }),
-                  found.end());
+        {
+          if (rows[k].has_partner && rows[k].gap < Tolerances::touching * rows[k].size &&
+              !oblique(rows[k]))
+            flags(dim * rows[k].slave + touches) = 1.;
+          if (on_edge(k))
+            flags(dim * rows[k].slave + stands_on_edge) = 1.;
+        }
+      flags.compress(VectorOperation::insert);
+      const Vector ghosted = input.solid->ghosted(flags);
+      const auto   covered = [&](const FoundBetweenNodes &one) {
+        if (!one.of_vertex)
+          return std::all_of(one.nodes.begin(), one.nodes.end(), [&](const auto &node) {
+            return ghosted(dim * node.first + stands_on_edge) == 1.;
+          });
+        // The row of a node at the point is replaced.
+        return !one.held && std::any_of(one.nodes.begin(), one.nodes.end(), [&](const auto &node) {
+          return node.second < Tolerances::at_node && ghosted(dim * node.first + touches) == 1.;
+        });
+      };
+      found.erase(std::remove_if(found.begin(), found.end(), covered), found.end());
     }
 
 
@@ -290,7 +301,7 @@ namespace Touchstone
             ContactRow &row = rows[k->second];
             // Rows far away say nothing yet, and may come to touch something else.
             if (!row.has_partner || row.gap > row.size || one.contact->gap() > row.size ||
-                !(weight > Tolerances::at_node || oblique(row)))
+                on_edge(k->second) || !(weight > Tolerances::at_node || oblique(row)))
               continue;
             row.has_partner = false;
             row.stencil.clear();

@@ -69,6 +69,12 @@ namespace Touchstone
         return edges.leave();
       }
 
+      bool
+      on_edge(const std::size_t k) const override
+      {
+        return edges[k].has_value();
+      }
+
       void
       rollback() override
       {
