@@ -330,6 +330,11 @@ main(int argc, char **argv)
   // Beside the edge by less than a thousandth of a face.
   for (const std::string kind : {"face", "averaged", "smoothed"})
     check("edge on edge, " + kind, edges, {set("Master normal", kind)}, 0., 5e-5);
+  check("edge over the end of an edge",
+        edges,
+        {"Body upper/Geometry/Upper corner=2, 1.15, 2"},
+        0.,
+        5e-5);
   // Normals on planes of symmetry are those of the whole body.
   for (const std::string pairing : {"pointwise", "averaged", "inside-outside"})
     for (const std::string kind : {"averaged", "smoothed"})
