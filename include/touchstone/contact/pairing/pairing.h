@@ -137,8 +137,8 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief Whether the row of a slave node, by its number among the owned ones, is that of a node
-     * on a parallel edge of the master since the last update(), see EdgeOnEdge. */
+    /** @brief Whether the row of a slave node, by its number among the owned ones, is that of a
+     * node on a parallel edge of the master since the last update(), see EdgeOnEdge. */
     virtual bool
     on_edge(std::size_t /*k*/) const
     {
