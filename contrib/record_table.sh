@@ -43,6 +43,11 @@ row "$edge" "n = 12, h = 0.0003, s = 0.005, c = 0.03"
 row "$edge" "n = 12, h = 0.0002, s = 0.004, c = 0.025, k = 1.35"
 row "$edge" "n = 14, h = 0.0003, s = 0.003, c = 0.02, g = 1.3"
 row "$edge" "n = 14, h = 0.00025, s = 0.0025, c = 0.02, g = 1.3"
+# Wherever the edge lies in its ring: moved outwards by parts of the narrowest one.
+for part in 0.25 0.5 0.75; do
+  row "$(echo "$edge $part" | awk '{ printf "%.6f", $1 + $2 * 0.0003 }')" \
+    "n = 14, h = 0.0003, s = 0.003, c = 0.02, g = 1.3"
+done
 
 # slip EDGES SIZE LARGEST GROWTH LAYER: the same for partial slip; finds the edges.
 slip() {
@@ -69,7 +74,14 @@ echo "| mesh | unknowns | Newton | CPU s | shear traction, L2 of the field | pre
 echo "|---|---|---|---|---|---|---|"
 slip 0.5,0.75 0.02 0.1 1.5 1.4
 first=$cpu
+here=$edges
 slip "$edges" 0.01 0.05 1.3 1.3
 slip "$edges" 0.005 0.03 1.25 1.25
 slip "$edges" 0.003 0.03 1.25 1.25
 slip "$edges" 0.0015 0.02 1.2 1.2
+# Both edges moved outwards by parts of a cell.
+found=$(echo "$here" | tr ',' ' ')
+for part in 0.25 0.5 0.75; do
+  slip "$(echo "$found $part" | awk '{ printf "%.5f,%.5f", $1 + $3 * 0.003, $2 + $3 * 0.003 }')" \
+    0.003 0.03 1.25 1.25
+done
