@@ -14,51 +14,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    bool
-    has(const SharpEdge &edge, const Index node)
-    {
-      return edge.nodes[0] == node || edge.nodes[1] == node;
-    }
-
-    /** The sharp edges in which two faces of the slave meet at a node. */
-    std::vector<SharpEdge>
-    edges_at(const Surface &slave, const Index node)
-    {
-      if (!EdgeOnEdge::at_sharp_edge(slave, node))
-        return {};
-      std::vector<const Face *> faces;
-      for (const auto &[face, m] : slave.faces_around(node))
-        faces.push_back(face);
-      std::vector<SharpEdge> result = sharp_edges(faces, Tolerances::sharp_edge_cosine);
-      result.erase(std::remove_if(result.begin(),
-                                  result.end(),
-                                  [&](const SharpEdge &edge) {
-                                    return edge.faces[1] == nullptr || !has(edge, node);
-                                  }),
-                   result.end());
-      return result;
-    }
-
-    /** Whether a node can stand on an edge of the master: of the own body as SelfContact says. */
-    bool
-    may_stand_on(const SlavePoint &point, const SharpEdge &edge)
-    {
-      if (edge.faces[1] == nullptr)
-        return false;
-      return point.self == nullptr ||
-             std::all_of(edge.faces.begin(), edge.faces.end(), [&](const Face *const face) {
-               return point.self->may_meet(point, *face) &&
-                      point.self->is_slave(point,
-                                           *face,
-                                           node_coordinates(*face, face->number_of(edge.nodes[0])));
-             });
-    }
-  } // namespace
-
-
-
   bool
   EdgeOnEdge::at_sharp_edge(const Surface &slave, const Index node)
   {
@@ -186,108 +141,11 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  EdgeOnEdge::distance_at_start(const Point<dim> &start) const
-  {
-    std::array<Point<dim>, 2> x;
-    for (unsigned int k = 0; k < 2; ++k)
-      {
-        const unsigned int m = edge_face->number_of(nodes[k]);
-        x[k]                 = edge_face->reference[m] + edge_face->committed[m];
-      }
-    const Tensor<1, dim> t = (x[1] - x[0]) / (x[1] - x[0]).norm(), from_end = start - x[0];
-    return from_end - (from_end * t) * t;
-  }
-
-
-
   bool
   EdgeOnEdge::stands() const
   {
     return touch && beyond <= Tolerances::edge_hysteresis * reach.edge_tolerance &&
            beside() <= Tolerances::touching * reach.size;
-  }
-
-
-
-  bool
-  EdgeOnEdge::holds(const Point<dim> &start, const bool swept) const
-  {
-    const double gap = distance * normal;
-    // Beside the edge it is a face that is touched. An iterate may carry the node deep into the
-    // body, where the face that is closest would be decided by how it got there.
-    if (!reach.stays && (!touch || beyond > reach.edge_tolerance ||
-                         std::abs(gap) > Tolerances::onto_edge * reach.size ||
-                         beside() > Tolerances::touching * reach.size +
-                                      Tolerances::beside_edge * std::max(0., -gap)))
-      return false;
-    // What was behind the edge before is the other side of a thin body.
-    return !swept || gap >= 0. ||
-           distance_at_start(start) * normal > -Tolerances::deep_edge * reach.size;
-  }
-
-
-
-  int
-  EdgeOnEdge::better_than(const EdgeOnEdge &best, const Point<dim> &start) const
-  {
-    // A node that stays does so on the line of edges that it stood on, even if an iterate is closer
-    // to another one.
-    const double at_start =
-      reach.stays ? distance_at_start(start).norm() - best.distance_at_start(start).norm() : 0.;
-    if (std::abs(at_start) > 0.5 * reach.size)
-      return at_start < 0. ? 1 : -1;
-    if (touch != best.touch)
-      return touch ? 1 : -1;
-    // Where an edge goes on in another one it has no end: that of the last one is closest.
-    const auto kind = [](const EdgeOnEdge &one) {
-      return one.over_end ? 1 : one.beyond > Tolerances::on_edge ? 2 : 0;
-    };
-    if (kind(*this) != kind(best))
-      return kind(*this) < kind(best) ? 1 : -1;
-    if (over_end && std::abs(weight - best.weight) > Tolerances::on_edge)
-      return weight > best.weight ? 1 : -1;
-    // Edges that go on in each other at a node are equally close.
-    const double closer = best.distance.norm() - distance.norm();
-    if (std::abs(closer) < Tolerances::on_edge * reach.size)
-      return 0;
-    return closer > 0. ? 1 : -1;
-  }
-
-
-
-  std::optional<EdgeOnEdge>
-  EdgeOnEdge::find(const Surface    &slave,
-                   const Search     &search,
-                   const SlavePoint &point,
-                   const Index       node,
-                   const Reach      &reach)
-  {
-    const std::vector<SharpEdge> own = edges_at(slave, node);
-    if (own.empty())
-      return {};
-    std::vector<std::pair<double, std::size_t>> boxes;
-    search.tree().within(point.x, Tolerances::onto_edge * reach.size, boxes);
-    std::vector<const Face *> near;
-    for (const auto &[square, i] : boxes)
-      near.push_back(&search.exchange().faces()[i]);
-    std::optional<EdgeOnEdge> result;
-    std::uint64_t             key = 0;
-    for (const SharpEdge &master : sharp_edges(near, Tolerances::sharp_edge_cosine))
-      if (may_stand_on(point, master))
-        for (const SharpEdge &edge : own)
-          {
-            const EdgeOnEdge found(edge, master, node, point.x, reach);
-            if (!found.holds(point.start, search.exchange().swept()))
-              continue;
-            const int better = result ? found.better_than(*result, point.start) : 1;
-            if (better > 0 || (better == 0 && master.key < key))
-              {
-                result = found;
-                key    = master.key;
-              }
-          }
-    return result;
   }
 
 
