@@ -2,6 +2,8 @@
 
 #include <touchstone/contact/pairing/nodes_on_edges.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // Slave nodes on edges of the master for pairings that know nothing of edges (doc/theory.md 4.2).
@@ -68,6 +70,11 @@ namespace Touchstone
         row.away  = 0.;
         edges[k]->set(row);
       }
+    // Faces are large, and nothing refers to them if no node stands on an edge.
+    const bool found =
+      std::any_of(edges.begin(), edges.end(), [](const auto &edge) { return edge.has_value(); });
+    if (Utilities::MPI::max(static_cast<int>(found), input.solid->communicator) == 0)
+      search.forget();
   }
 
 
