@@ -244,7 +244,7 @@ end
           if (state.active())
             {
               const Tensor<1, dim> &slip = row.friction->kinematics.slip;
-              begin_with(row, state, -state.friction.limit / slip.norm() * slip);
+              begin_with(row, state, -state.friction->limit / slip.norm() * slip);
             }
         });
       evaluate();
@@ -283,7 +283,7 @@ end
       contact.enforcement().adopt(
         row, state.status, augmented * row.normal + (row.friction ? tangential : Tensor<1, dim>()));
       if (row.friction)
-        state.friction.base = tangential;
+        state.friction->base = tangential;
       starts[row.index] = {augmented, tangential};
     }
 
@@ -314,7 +314,7 @@ end
               const double epsilon             = 20. * row.stiffness;
               state.lambda                     = normal - epsilon * row.gap;
               if (state.fully_constrained())
-                state.friction.base = tangential - epsilon * row.friction->kinematics.slip;
+                state.friction->base = tangential - epsilon * row.friction->kinematics.slip;
             }
         });
       contact.enforcement().recover(contact,
@@ -334,7 +334,7 @@ end
           if (state.active())
             {
               const Tensor<1, dim> &slip = row.friction->kinematics.slip;
-              state.force = state.lambda * row.normal - state.friction.limit / slip.norm() * slip;
+              state.force = state.lambda * row.normal - state.friction->limit / slip.norm() * slip;
             }
         });
       Touchstone::Vector result(made.solid.owned, MPI_COMM_WORLD);
@@ -634,7 +634,7 @@ end
         if (i == 0)
           states[row].lambda += step * force_changes[k];
         else
-          states[row].friction.base += step * force_changes[k] * condition.direction;
+          states[row].friction->base += step * force_changes[k] * condition.direction;
       });
       c.contact.enforcement().set_states(states);
       const Touchstone::Vector result = c.forces();
@@ -666,7 +666,7 @@ end
       [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &condition) {
         const RowState &state = c.contact.state(row);
         extra.push_back(
-          c.extra(row, i == 0 ? state.lambda : state.friction.base * condition.direction));
+          c.extra(row, i == 0 ? state.lambda : state.friction->base * condition.direction));
       });
     const Touchstone::Vector no_motion(c.made.solid.owned, MPI_COMM_WORLD);
     {
@@ -726,7 +726,7 @@ end
         const RowState &state = c.contact.state(row);
         refused += state.refused;
         inside +=
-          (row.friction && state.status == ContactStatus::slip && state.friction.excess <= 0.);
+          (row.friction && state.status == ContactStatus::slip && state.friction->excess <= 0.);
       }
     const unsigned int count = Utilities::MPI::sum(c.n_rows, MPI_COMM_WORLD);
     out << pairing << ", " << enforcement << ", " << friction.name

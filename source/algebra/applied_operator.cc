@@ -88,8 +88,8 @@ namespace Touchstone
   std::unique_ptr<Epetra_Vector>
   AppliedOperator::right_hand_side() const
   {
-    auto          result = std::make_unique<Epetra_Vector>(map);
-    Epetra_Vector balance(map);
+    auto           result  = std::make_unique<Epetra_Vector>(map);
+    Epetra_Vector &balance = *result;
     multiply(input.trial.inhomogeneity(), balance);
     balance.Scale(-1.);
     const int n = static_cast<int>(dim * input.system.stiffness->n_nodes());
@@ -97,7 +97,8 @@ namespace Touchstone
       balance[i] += input.system.rhs.begin()[i];
     for (Index k = 0; k < input.system.n_extra; ++k)
       balance[n + k] += input.system.extra_rhs[k];
-    input.test.apply_transposed(balance, *result);
+    Epetra_Vector work(map);
+    input.test.apply_transposed(balance, work);
     return result;
   }
 
@@ -108,14 +109,13 @@ namespace Touchstone
   int
   AppliedOperator::Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const
   {
-    for (auto *const vector : {&all, &force})
-      if (!*vector)
-        *vector = std::make_unique<Epetra_Vector>(map);
+    if (!all)
+      all = std::make_unique<Epetra_Vector>(map);
     for (int v = 0; v < x.NumVectors(); ++v)
       {
         input.trial.apply(*x(v), *all);
-        multiply(*all, *force);
-        input.test.apply_transposed(*force, *result(v));
+        multiply(*all, *result(v));
+        input.test.apply_transposed(*result(v), *all);
         for (const auto &[i, entry] : diagonal)
           result[v][i] += entry * x[v][i];
       }

@@ -4,6 +4,7 @@
 #include <touchstone/algebra/kept_factors.h>
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/watched_iteration.h>
+#include <touchstone/base/free_memory.h>
 #include <touchstone/base/non_convergence.h>
 
 #include <BelosBlockCGSolMgr.hpp>
@@ -119,7 +120,7 @@ namespace Touchstone
       bool    slow = false, told = false, indefinite = false;
       Strikes strikes;
       /** Constrained dofs of its matrix, and those of changed basis. */
-      std::vector<char> constrained, changed;
+      std::vector<bool> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
       int fresh_iterations = 0;
 
@@ -139,7 +140,8 @@ namespace Touchstone
       double
       patience(const CondensedSystem &system) const;
 
-      /** One run of the method. @return iterations, -1 if it failed.
+      /** One run of the method, from zero. @param solution Zero. @return iterations, -1 if it
+       * failed.
        * @throws SlowConvergence if it would take more iterations than patience(). */
       int
       iterate(const CondensedSystem &system, Epetra_Vector &solution);
@@ -298,10 +300,15 @@ namespace Touchstone
     int
     BelosSolver::iterate(const CondensedSystem &system, Epetra_Vector &solution)
     {
+      // The vectors of the method come on top of all else: without the pieces that search and
+      // assembly have left.
+      give_back_free_memory();
       const auto problem =
         Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(system.product()),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(solution),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(*system.rhs)));
+      // From zero the first residual is the right-hand side: no product and no vector for it.
+      problem->setInitResVec(Teuchos::rcpFromRef<const Epetra_MultiVector>(*system.rhs));
       const auto list = Teuchos::rcp(new Teuchos::ParameterList());
       list->set("Maximum Iterations", static_cast<int>(parameters.maximum_iterations));
       list->set("Convergence Tolerance", system.tolerance);

@@ -19,7 +19,7 @@ namespace Touchstone
   {
     constexpr unsigned int block = dim * dim;
 
-    /** Numbers of a node in padded vectors: three would end within the register of the next. */
+    /** Numbers of a node in padded results: three would end within the register of the next. */
     constexpr unsigned int pad = 4;
 
     /**
@@ -29,7 +29,7 @@ namespace Touchstone
     constexpr unsigned int unused = 1;
 
     /**
-     * out += A in, of padded vectors. The blocks of a row from start to upper_end stand for their
+     * out += A in, the result padded. The blocks of a row from start to upper_end stand for their
      * transposes, too: such a block a of (node, j) adds a x_j to the result of the node and a^T
      * x_node to that of j, so it is loaded once for both. Blocks behind upper_end (diagonal,
      * columns of other ranks) are used once.
@@ -49,12 +49,12 @@ namespace Touchstone
         {
           // Three rows of the node and one that is not used: what fits into a register.
           Vector4           sums[dim] = {};
-          const Number      own[dim]  = {in[pad * node], in[pad * node + 1], in[pad * node + 2]};
+          const Number      own[dim]  = {in[dim * node], in[dim * node + 1], in[dim * node + 2]};
           const std::size_t end       = pattern.upper_end[node];
           for (std::size_t k = pattern.start[node]; k < end; ++k)
             {
               const Number *a = entries + block * k;
-              const Number *y = in + pad * column[k];
+              const Number *y = in + dim * column[k];
               // Columns of the block, and rows of it. These from the registers: what limits
               // the speed are loads.
               const Vector4 a0 = *reinterpret_cast<const Vector4 *>(a),
@@ -74,7 +74,7 @@ namespace Touchstone
           for (std::size_t k = end; k < pattern.start[node + 1]; ++k)
             {
               const Number *a = entries + block * k;
-              const Number *y = in + pad * column[k];
+              const Number *y = in + dim * column[k];
               for (unsigned int d = 0; d < dim; ++d)
                 sums[d] += *reinterpret_cast<const Vector4 *>(a + dim * d) * y[d];
             }
@@ -182,42 +182,39 @@ namespace Touchstone
   {
     if (entries.size() == 0)
       entries.resize(block * pattern->column.size() + unused);
-    ghosts.resize(pattern->partitioner->n_ghost_indices());
     imported.resize(pattern->partitioner->n_import_indices());
   }
 
 
 
   // The exchange of ghosts is started first, so the messages travel while the own part of x is
-  // copied to the padded vector. Arrays are plain, for callers whose vectors are those of Epetra
-  // or deal.II.
+  // copied before them; without ghosts it is read where it is. Arrays are plain, for callers whose
+  // vectors are those of Epetra or deal.II.
   template <typename Number>
   void
   BlockMatrix<Number>::multiply(Number *result, const Number *x) const
   {
     const auto        &partitioner = *pattern->partitioner;
-    const unsigned int n           = pattern->n_nodes();
-    padded_in.resize(pad * pattern->n_local_nodes());
+    const unsigned int n = pattern->n_nodes(), n_ghosts = partitioner.n_ghost_indices();
+    const Number      *in = x;
     padded_out.resize(pad * n);
-    std::vector<MPI_Request> requests;
+    with_ghosts.resize(n_ghosts > 0 ? dim * n + n_ghosts : 0);
+    const ArrayView<Number, MemorySpace::Host> ghosts(with_ghosts.end() - n_ghosts, n_ghosts);
+    std::vector<MPI_Request>                   requests;
     partitioner.export_to_ghosted_array_start(
       0,
       ArrayView<const Number, MemorySpace::Host>(x, dim * n),
       ArrayView<Number, MemorySpace::Host>(imported.data(), imported.size()),
-      ArrayView<Number, MemorySpace::Host>(ghosts.data(), ghosts.size()),
+      ghosts,
       requests);
-    const auto spread = [&](const Number *from, const unsigned int begin, const unsigned int end) {
-      Number *to = padded_in.data() + pad * begin;
-      for (unsigned int node = begin; node < end; ++node, from += dim, to += pad)
-        std::copy_n(from, dim, to);
-    };
-    spread(x, 0, n);
-    partitioner.export_to_ghosted_array_finish(ArrayView<Number, MemorySpace::Host>(ghosts.data(),
-                                                                                    ghosts.size()),
-                                               requests);
-    spread(ghosts.data(), n, n + ghosts.size() / dim);
+    if (n_ghosts > 0)
+      {
+        std::copy_n(x, dim * n, with_ghosts.begin());
+        in = with_ghosts.data();
+      }
+    partitioner.export_to_ghosted_array_finish(ghosts, requests);
     std::fill(padded_out.begin(), padded_out.end(), Number(0.));
-    product(*pattern, entries.data(), padded_in.data(), padded_out.data());
+    product(*pattern, entries.data(), in, padded_out.data());
     for (unsigned int node = 0; node < n; ++node)
       std::copy_n(padded_out.data() + pad * node, dim, result + dim * node);
   }

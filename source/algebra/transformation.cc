@@ -156,7 +156,7 @@ namespace Touchstone
   // Scatter: entries of rows that are not those of the identity go to the dofs that these refer
   // to; what is left goes to its own dof. Contributions to dofs of other ranks are added there.
   void
-  Transformation::apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const
+  Transformation::apply_transposed(Epetra_Vector &x, Epetra_Vector &work) const
   {
     const OwnRows &t = own_rows();
     for (std::size_t k = 0; k < t.rows.size(); ++k)
@@ -164,8 +164,8 @@ namespace Touchstone
         (*t.values)[k] = x[t.rows[k]];
         x[t.rows[k]]   = 0.;
       }
-    t.entries->Multiply(true, *t.values, result);
-    result.Update(1., x, 1.);
+    t.entries->Multiply(true, *t.values, work);
+    x.Update(1., work, 1.);
   }
 
 

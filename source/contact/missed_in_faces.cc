@@ -34,26 +34,32 @@ namespace Touchstone
   std::vector<Face>
   MissedContact::master_faces(const std::vector<Face> &slaves) const
   {
-    const MPI_Comm    communicator = contact.communicator();
-    std::vector<Box>  around_slaves, boxes;
-    std::vector<Face> masters;
+    const MPI_Comm            communicator = contact.communicator();
+    std::vector<Box>          around_slaves, boxes;
+    std::vector<const Face *> masters;
     for (const Face &slave : slaves)
       around_slaves.push_back(MeasuredFace::box_around(slave, MeasuredFace(slave, nullptr).size()));
     for (const Face &face : pair.master()->owned_faces())
       // Of one body a face that carries may be slave and master: its rows resist as well.
       if (!pair.parameters().of_one_body() || carries_nothing(face))
         {
-          masters.push_back(present(face));
-          boxes.push_back(MeasuredFace::box_around(masters.back(), 0.));
+          masters.push_back(&face);
+          boxes.push_back(MeasuredFace::box_around(present(face), 0.));
         }
     std::map<unsigned int, std::vector<Face>> messages;
     const auto ranks = near_ranks(around_slaves, boxes, communicator);
     for (std::size_t f = 0; f < masters.size(); ++f)
       for (const unsigned int rank : ranks[f])
-        messages[rank].push_back(masters[f]);
+        messages[rank].push_back(present(*masters[f]));
+    // Faces are large: no more copies than necessary.
+    auto received = exchange_records(messages, communicator);
+    messages.clear();
     std::vector<Face> result;
-    for (const auto &[rank, faces] : exchange_records(messages, communicator))
-      result.insert(result.end(), faces.begin(), faces.end());
+    for (auto &[rank, faces] : received)
+      if (result.empty())
+        result.swap(faces);
+      else
+        result.insert(result.end(), faces.begin(), faces.end());
     return result;
   }
 

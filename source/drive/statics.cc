@@ -47,6 +47,8 @@ namespace Touchstone
         // extrapolated displacement often has the right active set already.
         if (guesses)
           u.add(time - committed_time, motion);
+        // A vector less in the linear solver; the end of the step has another motion.
+        motion.clear();
       }
 
       void
@@ -109,6 +111,8 @@ namespace Touchstone
             motion.swap(motion_of_step);
             motion *= 1. / (time - committed_time);
           }
+        else
+          motion = Vector(solid.zero_vector());
         motion_of_step.clear();
         TimeIntegration::commit();
       }
@@ -118,7 +122,7 @@ namespace Touchstone
       {
         // The extrapolation may be what made the step fail: its repetition starts at the committed
         // state.
-        motion = 0.;
+        motion = Vector(solid.zero_vector());
       }
 
     private:
@@ -127,7 +131,7 @@ namespace Touchstone
       const bool    guesses;
       /**
        * Velocity of the last step, length per time, for the extrapolation; zero if it does not
-       * predict the next step.
+       * predict the next step, empty within a step.
        */
       Vector motion;
       /** Displacement of the step that end_step() has seen, length; empty once it is committed. */

@@ -21,7 +21,7 @@ namespace Touchstone
   {
     NewtonState state;
     update_geometry(state);
-    Vector without_contact(internal); // the layout: to make one takes messages
+    Vector without_contact(solid.zero_vector());
     balance(without_contact);
     contact.enforcement().recover(contact, without_contact, system->conditions());
     judge_balance(without_contact, state);
@@ -60,6 +60,10 @@ namespace Touchstone
   {
     {
       TimerOutput::Scope scope(timer, "assembly");
+      // Cleared by solve(). Copies of a layout: to make one takes messages.
+      for (Vector *const vector : {&internal, &applied})
+        if (vector->size() == 0)
+          *vector = Vector(solid.zero_vector());
       solid.internal_force(u, internal);
       if (boundary_conditions.depends_on_displacement())
         boundary_conditions.external_force(time, u, external);
@@ -78,8 +82,7 @@ namespace Touchstone
   {
     // Relative residual, equation (13): the scale is the largest of internal, external, contact and
     // inertial forces.
-    Vector contact_force(internal);
-    contact_force = 0.;
+    Vector contact_force(solid.zero_vector());
     contact.add_forces(contact_force);
     unbalanced = without_contact;
     unbalanced += contact_force;
@@ -146,6 +149,7 @@ namespace Touchstone
   StepProblem::linearize()
   {
     TimerOutput::Scope scope(timer, "assembly");
+    forget_increment();
     if (!solid.linear())
       {
         // Linear bodies have a constant stiffness, which was assembled in the constructor
@@ -168,8 +172,9 @@ namespace Touchstone
   StepProblem::solve()
   {
     TimerOutput::Scope scope(timer, "linear solver");
-    // The linear solver takes most memory of a run.
-    before_increment.clear();
+    // The linear solver takes most memory of a run; the next residual makes these forces anew.
+    internal.clear();
+    applied.clear();
     const int iterations = system->solve(solved_increment);
     check_increment();
     system->recover(solved_increment);
@@ -202,6 +207,16 @@ namespace Touchstone
     u.swap(trial);
     contact.enforcement().update(contact,
                                  scene.newton.line_search != NewtonParameters::LineSearch::none);
+  }
+
+
+
+  void
+  StepProblem::forget_increment()
+  {
+    before_increment.clear();
+    solved_increment.clear();
+    contact.enforcement().forget_update();
   }
 
 

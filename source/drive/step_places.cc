@@ -152,7 +152,7 @@ namespace Touchstone
     std::vector<int> found(contact.n_pairs(), 0);
     for (const ContactRow &row : contact.rows())
       if (row.friction && contact.state(row).status == ContactStatus::stick)
-        for (const Tensor<1, dim> &tangent : contact.state(row).friction.unconstrained)
+        for (const Tensor<1, dim> &tangent : contact.state(row).friction->unconstrained)
           if (std::abs(row.friction->kinematics.slip * tangent) >
               scene.newton.gap_tolerance * row.size)
             found[row.pair] = 1;

@@ -173,6 +173,7 @@ namespace Touchstone
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
           n_iterations += newton.solve(*this, observer, /*least=*/1);
+        forget_increment();
         if (round == most_rounds)
           break;
         const bool formed = contact.find_formed(u), left = contact.leave_edges(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/free_memory.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/reduction.h>
 #include <touchstone/contact/enforcement/enforcement.h>
@@ -339,8 +340,12 @@ namespace Touchstone
     // Eliminated dofs follow from the constraints.
     condensed->expand(solution, increment);
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
-    // Frees its memory before the forces are recovered, which need the full system only.
+    // Frees its memory before the forces are recovered, which need the full system only, and
+    // contact is searched, which needs memory of its own.
     condensed.reset();
+    system->stiffness->free_work_space();
+    if (solver->applies_operator(size()))
+      give_back_free_memory();
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);
   }

@@ -49,7 +49,6 @@ namespace Touchstone
     {
       // Multigrid is set up, which takes most memory of a run.
       all.reset();
-      force.reset();
       return condensed_block_rows(input);
     }
 
@@ -67,7 +66,7 @@ namespace Touchstone
     /** Constrained dofs, and their entries on the diagonal. */
     std::vector<std::pair<int, double>> diagonal;
     /** Work space of products, made when it is needed. */
-    mutable std::unique_ptr<Epetra_Vector> all, force;
+    mutable std::unique_ptr<Epetra_Vector> all;
 
     /** Forms of this rank's terms as the rows of a matrix. */
     std::unique_ptr<Epetra_CrsMatrix>

@@ -158,13 +158,13 @@ namespace Touchstone
     void
     multiply(Number *result, const Number *x) const;
 
-    /** @brief Free the work space of products, which takes the memory of three vectors; the next
+    /** @brief Free the work space of products, which takes more memory than a vector; the next
      * product makes it again. */
     void
     free_work_space() const
     {
-      padded_in.clear();
       padded_out.clear();
+      with_ghosts.clear();
     }
 
     /** @brief An entry of the diagonal, by local index of the row. */
@@ -244,10 +244,10 @@ namespace Touchstone
     allocate();
 
   private:
-    /** Vectors of a product, padded to four numbers a node: a register of four numbers written
-     * to one node would otherwise overwrite the first number of the next. And the numbers
-     * received from other ranks (ghosts) and sent to them (imported). */
-    mutable dealii::AlignedVector<Number> padded_in, padded_out, ghosts, imported;
+    /** Result of a product, padded to four numbers a node: a register of four numbers written to
+     * one node would otherwise overwrite the first number of the next. The factor with the numbers
+     * received from other ranks behind it, if there are any; and those sent to them. */
+    mutable dealii::AlignedVector<Number> padded_out, with_ghosts, imported;
   };
 } // namespace Touchstone
 

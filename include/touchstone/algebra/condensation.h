@@ -96,7 +96,7 @@ namespace Touchstone
     /** The units of T and S (Transformation); null: one. */
     const Epetra_Vector *units;
     /** Marks constrained dofs, by local index. */
-    const std::vector<char> &constrained;
+    const std::vector<bool> &constrained;
   };
 
   /**

@@ -84,10 +84,10 @@ namespace Touchstone
 
     std::unique_ptr<Epetra_Vector> rhs;
     /** Marks rows of constrained dofs, in the order of the local rows. */
-    std::vector<char> constrained;
+    std::vector<bool> constrained;
     /** Marks rows of dofs that are the elongation of a spring
      * (LinearSystem::basis_change). */
-    std::vector<char> changed;
+    std::vector<bool> changed;
     const bool        symmetric, definite;
     const double      tolerance;
 

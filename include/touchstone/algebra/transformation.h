@@ -28,8 +28,11 @@ namespace Touchstone
   public:
     explicit LocalIndices(const Epetra_Map &map)
       : map(map)
-      , all(map.MyGlobalElements(), map.MyGlobalElements() + map.NumMyElements())
     {
+      // One by one: the map would keep a list of its own.
+      all.reserve(map.NumMyElements());
+      for (int i = 0; i < map.NumMyElements(); ++i)
+        all.push_back(map.GID(i));
     }
 
     int
@@ -110,9 +113,9 @@ namespace Touchstone
     void
     apply(const Epetra_Vector &y, Epetra_Vector &result) const;
 
-    /** @brief result = T^T x; changes @p x. Collective. */
+    /** @brief x = T^T x. @param work Work space. Collective. */
     void
-    apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const;
+    apply_transposed(Epetra_Vector &x, Epetra_Vector &work) const;
 
     /** @brief result = T y + g. Collective. */
     void

@@ -26,12 +26,15 @@ namespace Touchstone
     virtual void
     reset(const ContactRow &row) = 0;
 
-    /** @name Keep the present values beside the committed ones, and return to them */
+    /** @name Keep the present values beside the committed ones, and return to them until they are
+     * forgotten */
     /** @{ */
     virtual void
     keep() = 0;
     virtual void
     restore() = 0;
+    virtual void
+    forget() = 0;
     /** @} */
   };
 
@@ -112,6 +115,12 @@ namespace Touchstone
     restore() override
     {
       present = kept;
+    }
+
+    void
+    forget() override
+    {
+      std::vector<T>().swap(kept);
     }
 
     /** @brief The value when keep() was called. */

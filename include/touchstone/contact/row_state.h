@@ -3,6 +3,7 @@
 #ifndef touchstone_contact_row_state_h
 #define touchstone_contact_row_state_h
 
+#include <touchstone/base/on_demand.h>
 #include <touchstone/contact/friction/friction_force.h>
 #include <touchstone/contact/row.h>
 
@@ -42,8 +43,8 @@ namespace Touchstone
     bool normal_accepted = true;
     /** Part of a cyclic dependency between contact pairs: imposes no constraint. */
     bool redundant = false;
-    /** Only of rows with friction. */
-    FrictionForce friction;
+    /** Only of rows with friction; others do not ask for it, for it is most of a state. */
+    OnDemand<FrictionForce> friction;
 
     bool
     active() const
@@ -57,7 +58,7 @@ namespace Touchstone
     fully_constrained() const
     {
       return status == ContactStatus::tied ||
-             (status == ContactStatus::stick && friction.constrained);
+             (status == ContactStatus::stick && friction->constrained);
     }
 
     /** @brief Active, but supports or other rows determine all of its relative displacement: the
@@ -81,7 +82,8 @@ namespace Touchstone
     {
       lambda = 0.;
       force  = dealii::Tensor<1, dim>();
-      friction.clear();
+      if (friction.made())
+        friction->clear();
     }
 
     /** @brief Record whether a condition was accepted, that along the normal first; returns that.
@@ -92,8 +94,8 @@ namespace Touchstone
       unsigned int bit = (accepted | refused) + 1;
       if (bit == 1)
         normal_accepted = was_accepted;
-      else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
-        (can_be_met ? friction.unconstrained : friction.held).push_back(condition.direction);
+      else if (!was_accepted && status == ContactStatus::stick && friction->constrained)
+        (can_be_met ? friction->unconstrained : friction->held).push_back(condition.direction);
       if (status == ContactStatus::tied)
         for (unsigned int d = 0; d < dim; ++d)
           if (condition.direction[d] != 0.)
@@ -115,7 +117,7 @@ namespace Touchstone
       visit(state.admissible_gap);
       visit(state.force);
       visit(state.lambda);
-      FrictionForce::visit_state(state.friction, visit);
+      FrictionForce::visit_state(*state.friction, visit);
     }
   };
 } // namespace Touchstone

@@ -83,6 +83,10 @@ namespace Touchstone
     shorten(double fraction) override;
     /** @} */
 
+    /** The last increment will not be shortened any more: free what that needs. */
+    void
+    forget_increment();
+
     /** Start a step to time @p t from the committed state. */
     void
     begin_step(double t);
@@ -122,7 +126,7 @@ namespace Touchstone
      * applied: all but those of contact, as the time integration weighs them; unbalanced: their
      * sum with contact, before the reactions of supports are removed. */
     Vector u, committed_u, external, internal, applied, unbalanced;
-    /** Of the last linear solve, in full. */
+    /** Of the last linear solve, in full; empty when it will not be shortened any more. */
     Vector                           solved_increment;
     std::unique_ptr<TimeIntegration> integration;
     std::unique_ptr<StepSystem>      system;
@@ -133,7 +137,7 @@ namespace Touchstone
     double touch         = 1.;
     bool   touch_unknown = false;
     /** @name State to which shorten() returns: the displacement before the last
-     * update(), empty during a linear solve, and the fraction of the increment that left all cells
+     * update(), empty without one, and the fraction of the increment that left all cells
      * admissible */
     /** @{ */
     Vector before_increment;

@@ -162,7 +162,7 @@ namespace Touchstone
       std::unique_ptr<Objects>         kept;
       /** Constrained dofs of the system for which the preconditioner was set up, and those of
        * changed basis; and the iterations that the first solve with it took. */
-      std::vector<char> constrained, changed;
+      std::vector<bool> constrained, changed;
       PetscInt          fresh_iterations = 0;
 
       void

@@ -64,7 +64,7 @@ namespace Touchstone
     forced_slip(const ContactRow &row, const RowState &state)
     {
       const Tensor<1, dim> &slip = row.friction->kinematics.slip;
-      return slip - orthogonal_part(slip, state.friction.held);
+      return slip - orthogonal_part(slip, state.friction->held);
     }
 
 
@@ -75,7 +75,7 @@ namespace Touchstone
     double
     slip_off_direction(const ContactRow &row, const RowState &state)
     {
-      const FrictionForce  &f    = state.friction;
+      const FrictionForce  &f    = *state.friction;
       const Tensor<1, dim> &slip = row.friction->kinematics.slip;
       const double          size = slip.norm();
       if (state.status == ContactStatus::stick)
@@ -110,7 +110,7 @@ namespace Touchstone
         return {-trial, ContactStatus::open};
       if (!row.friction || state.dropped())
         return {};
-      const FrictionForce &f = state.friction;
+      const FrictionForce &f = *state.friction;
       // The second part is what round-off makes of a slip.
       const double tolerance = on_the_cone * f.limit + 1e-4 * gap_tolerance * scale;
       if (state.status == ContactStatus::stick)
@@ -162,12 +162,12 @@ namespace Touchstone
         return gap;
       // A gap that is left in this row is elastic slip of the other rows of a shared node, where it
       // causes friction of c times the gap; so it is judged c / (E A / h) times as strictly.
-      if (state.friction.shared && state.active() && state.normal_accepted)
+      if (state.friction->shared && state.active() && state.normal_accepted)
         gap = std::max(gap,
-                       std::abs(row.gap - state.admissible_gap) / row.size * state.friction.c /
+                       std::abs(row.gap - state.admissible_gap) / row.size * state.friction->c /
                          row.stiffness);
       // Stick without elastic slip admits no slip at all.
-      if (!state.friction.carried && !state.dropped())
+      if (!state.friction->carried && !state.dropped())
         gap = std::max(gap, slip_off_direction(row, state) / row.size);
       return gap;
     }
@@ -227,19 +227,19 @@ namespace Touchstone
         clear(row);
         if (row.friction && state.active())
           {
-            state.friction.base = row.friction->kinematics.start;
+            state.friction->base = row.friction->kinematics.start;
             // Springs of regularised friction resist from the next linear system on; their
             // force acts after it.
-            if (state.friction.carried)
-              friction_response(row, state.status, state.lambda, state.friction);
+            if (state.friction->carried)
+              friction_response(row, state.status, state.lambda, *state.friction);
           }
         return;
       }
-    if (state.status == ContactStatus::stick && !state.friction.carried)
+    if (state.status == ContactStatus::stick && !state.friction->carried)
       {
         // From slip to stick: the force remains the same until the next linear solution.
-        state.friction.base           = state.force - state.lambda * row.normal;
-        state.friction.last_direction = Tensor<1, dim>();
+        state.friction->base           = state.force - state.lambda * row.normal;
+        state.friction->last_direction = Tensor<1, dim>();
       }
     evaluate_force(row, state);
   }
@@ -305,7 +305,7 @@ namespace Touchstone
             // none, would lead back to stick.
             if (state.status == ContactStatus::stick && row.friction)
               if (const Tensor<1, dim> forced = forced_slip(row, state); forced.norm() > 0.)
-                state.friction.last_direction = -forced / forced.norm();
+                state.friction->last_direction = -forced / forced.norm();
             change_status(row, next.status);
             ++result.changes;
             result.changed.push_back(&row);

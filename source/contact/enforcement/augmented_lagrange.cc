@@ -78,7 +78,7 @@ namespace Touchstone
       {
         // Merged: as with multipliers, but springs meet the conditions of stick.
         choose_friction(row, state);
-        FrictionForce &f = state.friction;
+        FrictionForce &f = *state.friction;
         if (merged || f.carried)
           return;
         // Augmented friction: no condition and no elastic slip, the base is the force of the last

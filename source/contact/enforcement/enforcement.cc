@@ -80,7 +80,8 @@ namespace Touchstone
       {
         const std::vector<bool> undetermined = undetermined_stick(contact, graph);
         for (const ContactRow &row : contact.rows())
-          row_states[row].friction.shared = undetermined[row.index];
+          if (row.friction)
+            row_states[row].friction->shared = undetermined[row.index];
       }
     evaluate(contact, unbalanced, graph);
   }
@@ -122,8 +123,11 @@ namespace Touchstone
           }
         // The direction and stiffness of this linear system are the base of the next trial force in
         // slip, doc/theory.md 6.1, equation (17).
-        state.friction.last_direction = state.friction.direction;
-        state.friction.last_tangent   = state.friction.tangent;
+        if (row.friction)
+          {
+            state.friction->last_direction = state.friction->direction;
+            state.friction->last_tangent   = state.friction->tangent;
+          }
         terms.add_row(row, state);
       }
     terms.finish();
@@ -162,9 +166,18 @@ namespace Touchstone
         state.force  = before.force + fraction * (state.force - before.force);
         state.lambda = before.lambda + fraction * (state.lambda - before.lambda);
         if (row.friction)
-          state.friction.base =
-            before.friction.base + fraction * (state.friction.base - before.friction.base);
+          state.friction->base =
+            before.friction->base + fraction * (state.friction->base - before.friction->base);
       }
+  }
+
+
+
+  void
+  Enforcement::forget_update()
+  {
+    for (RowArrayBase *array : arrays)
+      array->forget();
   }
 
 
@@ -187,9 +200,9 @@ namespace Touchstone
         const Tensor<1, dim> tangential = force - state.lambda * row.normal;
         if (row.friction)
           {
-            state.friction.base = tangential;
+            state.friction->base = tangential;
             if (state.status == ContactStatus::slip && tangential.norm() > 0.)
-              state.friction.last_direction = tangential / tangential.norm();
+              state.friction->last_direction = tangential / tangential.norm();
           }
         adopted(row);
       }

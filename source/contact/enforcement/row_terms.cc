@@ -100,10 +100,10 @@ namespace Touchstone
     // stiff springs get their elongation as a dof: multigrid keeps such dofs out of its coarse
     // spaces, which a soft spring does not need.
     if (row.friction && state.status == ContactStatus::slip && !state.dropped() &&
-        state.friction.tangent.norm() > 10. * row.stiffness)
+        state.friction->tangent.norm() > 10. * row.stiffness)
       {
         conditions.push_back(blank_condition(row));
-        conditions.back().direction = cross_product_3d(row.normal, state.friction.direction);
+        conditions.back().direction = cross_product_3d(row.normal, state.friction->direction);
       }
     for (Condition &condition : conditions)
       if (!row.friction->kinematics.slip_gradient.empty())
@@ -120,8 +120,11 @@ namespace Touchstone
     // `dropped()`.
     state.accepted = state.refused = 0;
     state.normal_accepted          = true;
-    state.friction.unconstrained.clear();
-    state.friction.held.clear();
+    if (state.friction.made())
+      {
+        state.friction->unconstrained.clear();
+        state.friction->held.clear();
+      }
     if (state.active() && state.redundant)
       {
         state.refused         = 1;
@@ -160,8 +163,8 @@ namespace Touchstone
       condition.gradient = gap_gradient(row);
     // In slip the friction force follows the normal force: both act with lambda along n + L' tau,
     // equation (22).
-    if (row.friction && state.friction.d_lambda.norm_square() > 0.)
-      condition.force_direction = row.normal + state.friction.d_lambda;
+    if (row.friction && state.friction->d_lambda.norm_square() > 0.)
+      condition.force_direction = row.normal + state.friction->d_lambda;
     conditions.push_back(condition);
     // Stick: e_a.ds = -e_a.s takes back the slip that is left (doc/theory.md 6.1).
     if (state.fully_constrained())
@@ -278,7 +281,7 @@ namespace Touchstone
   RowTerms::add_friction(const ContactRow &row, const RowState &state)
   {
     const SlipKinematics &k        = row.friction->kinematics;
-    const FrictionForce  &f        = state.friction;
+    const FrictionForce  &f        = *state.friction;
     Tensor<1, dim>        constant = f.constant;
     Tensor<2, dim>        tangent  = f.tangent;
     if (state.fully_constrained())

@@ -87,13 +87,13 @@ namespace Touchstone
   void
   regularise_friction(const ContactRow &row, RowState &state)
   {
-    state.friction.constrained = false;
-    state.friction.carried     = true;
+    state.friction->constrained = false;
+    state.friction->carried     = true;
     // Force and slip of the row of a point are 1 / share and share times those of the point, whose
     // spring must not depend on which of its nodes has the row.
-    const double share  = share_of_point(row);
-    state.friction.c    = row.friction->alpha / (share * share);
-    state.friction.base = row.friction->kinematics.start;
+    const double share   = share_of_point(row);
+    state.friction->c    = row.friction->alpha / (share * share);
+    state.friction->base = row.friction->kinematics.start;
   }
 
 
@@ -104,14 +104,14 @@ namespace Touchstone
   void
   choose_friction(const ContactRow &row, RowState &state)
   {
-    if (!row.friction->exact || state.friction.shared)
+    if (!row.friction->exact || state.friction->shared)
       {
         regularise_friction(row, state);
         return;
       }
-    state.friction.constrained = true;
-    state.friction.carried     = false;
-    state.friction.c           = row.stiffness;
+    state.friction->constrained = true;
+    state.friction->carried     = false;
+    state.friction->c           = row.stiffness;
   }
 
 
@@ -123,10 +123,10 @@ namespace Touchstone
   augment_unconstrained(const ContactRow &row, RowState &state)
   {
     const SlipKinematics &k    = row.friction->kinematics;
-    Tensor<1, dim>       &base = state.friction.base;
-    for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
+    Tensor<1, dim>       &base = state.friction->base;
+    for (const Tensor<1, dim> &tangent : state.friction->unconstrained)
       base -= FrictionForce::unconstrained_stiffness(row.stiffness) * (k.slip * tangent) * tangent;
-    for (const Tensor<1, dim> &tangent : state.friction.held)
+    for (const Tensor<1, dim> &tangent : state.friction->held)
       base += ((k.start - base) * tangent) * tangent;
   }
 
@@ -137,10 +137,10 @@ namespace Touchstone
   void
   set_stick(RowState &state, const Tensor<1, dim> &normal)
   {
-    for (const auto &tangents : {state.friction.unconstrained, state.friction.held})
+    for (const auto &tangents : {state.friction->unconstrained, state.friction->held})
       for (const Tensor<1, dim> &tangent : tangents)
-        state.force += (state.friction.base * tangent) * tangent;
-    state.friction.base = state.force - state.lambda * normal;
+        state.force += (state.friction->base * tangent) * tangent;
+    state.friction->base = state.force - state.lambda * normal;
   }
 
 
@@ -290,7 +290,7 @@ namespace Touchstone
       return;
     state.force = state.lambda * row.normal;
     if (row.friction)
-      state.force += friction_response(row, state.status, state.lambda, state.friction);
+      state.force += friction_response(row, state.status, state.lambda, *state.friction);
   }
 
 
@@ -304,8 +304,8 @@ namespace Touchstone
     if (!row.friction || !state.active() || row.tied)
       return;
     const double lagged = std::max(lambda, 0.);
-    friction_response(row, state.status, lagged, state.friction);
-    state.friction.constant += lagged * state.friction.d_lambda;
-    state.friction.d_lambda = Tensor<1, dim>();
+    friction_response(row, state.status, lagged, *state.friction);
+    state.friction->constant += lagged * state.friction->d_lambda;
+    state.friction->d_lambda = Tensor<1, dim>();
   }
 } // namespace Touchstone

@@ -157,7 +157,7 @@ namespace Touchstone
           {
             // Friction opposes the slip, so the dissipated work -t.s_p is positive. An open node or
             // one that sticks dissipates nothing.
-            const Tensor<1, dim> slip = irreversible_slip(*row.friction, state.friction, force);
+            const Tensor<1, dim> slip = irreversible_slip(*row.friction, *state.friction, force);
             history.work -= force * slip;
             history.slip_length += slip.norm();
           }

@@ -148,9 +148,6 @@ namespace Touchstone
       AveragedSums             sums;
       std::vector<CoveredFace> slave_faces;
 
-      /** Geometries of the faces that the search knows, made on demand. */
-      std::vector<std::optional<FaceGeometry>> geometries;
-
       /** The next update is that of the committed state, which is not known since a restart. */
       bool step_begins = false;
       /** The first update decides, as the committed state does, which nodes keep their rows. */
@@ -161,8 +158,6 @@ namespace Touchstone
       /** The committed state is that of the last update. */
       void
       set_before();
-      const FaceGeometry &
-      geometry(const Face &master);
       /** Bring the copies of the slave faces to the present state, and get the master faces around
        * them. Collective. */
       void
@@ -223,17 +218,6 @@ namespace Touchstone
 
 
 
-    const FaceGeometry &
-    AveragedPairing::geometry(const Face &master)
-    {
-      auto &result = geometries[search.exchange().index(master)];
-      if (!result)
-        result.emplace(search.geometry(master));
-      return *result;
-    }
-
-
-
     void
     AveragedPairing::move_faces()
     {
@@ -270,9 +254,6 @@ namespace Touchstone
               covered.slave.mirrored_edges = complete.mirrored_edges;
             }
         }
-      // Faces of the search have changed or moved.
-      geometries.clear();
-      geometries.resize(search.known_faces().size());
     }
 
 
@@ -284,14 +265,21 @@ namespace Touchstone
       move_faces();
       if (motion.exceeds(facing.motion()))
         facing.invalidate();
-      std::vector<const FaceGeometry *> on_masters;
+      // Of the master faces, made on demand.
+      std::vector<std::optional<FaceGeometry>> geometries(search.known_faces().size());
+      std::vector<const FaceGeometry *>        on_masters;
       for (std::size_t f = 0; f < faces.size(); ++f)
         {
           auto &[slave, masters] = slave_faces[f];
           masters                = facing.find(slave);
           on_masters.clear();
           for (const FacingFace &covering : masters)
-            on_masters.push_back(&geometry(*covering.master));
+            {
+              auto &geometry = geometries[search.exchange().index(*covering.master)];
+              if (!geometry)
+                geometry.emplace(search.geometry(*covering.master));
+              on_masters.push_back(&*geometry);
+            }
           sums.add(faces[f], slave, masters, on_masters);
         }
       sums.finish();

@@ -2,6 +2,8 @@
 
 #include <touchstone/contact/pairing/nodes_on_edges.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // Slave nodes on edges of the master for pairings that know nothing of edges (doc/theory.md 4.2).
@@ -70,6 +72,11 @@ namespace Touchstone
         edges[k]->set(row);
       }
     edges.end_update();
+    // Faces are large, and nothing refers to them if no node stands on an edge.
+    const bool none =
+      std::none_of(on_edges.begin(), on_edges.end(), [&](const auto k) { return replaces(k); });
+    if (Utilities::MPI::min(static_cast<int>(none), input.solid->communicator) == 1)
+      search.forget();
   }
 
 

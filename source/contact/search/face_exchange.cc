@@ -87,16 +87,17 @@ namespace Touchstone
   void
   FaceExchange::commit(const Vector *u)
   {
-    has_committed = true;
-    // Zero displacement: the reference state.
-    committed.assign(surface.owned_faces().size(), {});
-    if (u != nullptr)
-      for (std::size_t f = 0; f < committed.size(); ++f)
+    has_committed                = true;
+    const std::vector<Face> &own = surface.owned_faces();
+    committed.clear();
+    committed.reserve(own.empty() ? 0 : own.size() * own.front().n_nodes());
+    for (const Face &face : own)
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
-          const Face &face = surface.owned_faces()[f];
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            for (unsigned int d = 0; d < dim; ++d)
-              committed[f][m][d] = (*u)(dim * face.nodes[m] + d);
+          // Null: zero, the reference state.
+          committed.emplace_back();
+          for (unsigned int d = 0; d < dim && u != nullptr; ++d)
+            committed.back()[d] = (*u)(dim * face.nodes[m] + d);
         }
   }
 
@@ -108,7 +109,7 @@ namespace Touchstone
     // Faces of the surface know their present displacement only.
     Face face = surface.owned_faces()[f];
     if (!committed.empty())
-      face.committed = committed[f];
+      std::copy_n(committed.begin() + f * face.n_nodes(), face.n_nodes(), face.committed.begin());
     return face;
   }
 
@@ -156,7 +157,7 @@ namespace Touchstone
           known[f].edge_normals[m] = own[f].edge_normals[m];
           known[f].own_normals[m]  = own[f].own_normals[m];
           if (!committed.empty())
-            known[f].committed[m] = committed[f][m];
+            known[f].committed[m] = committed[f * own[f].n_nodes() + m];
         }
   }
 

@@ -167,12 +167,19 @@ namespace Touchstone
   void
   Search::update(const std::vector<Point<dim>> &positions)
   {
-    // Counts of the old tree go to the total before it is dropped; the new one is built when it is
-    // first needed.
+    drop_tree();
+    received.update(positions);
+  }
+
+
+
+  void
+  Search::drop_tree()
+  {
+    // Its counts go to the total; a new one is built when it is first needed.
     if (present_tree)
       candidates_before += present_tree->candidates();
     present_tree.reset();
-    received.update(positions);
   }
 
 

@@ -195,6 +195,10 @@ namespace Touchstone
     void
     shorten(const Contact &contact, double fraction);
 
+    /** @brief The last update() will not be shortened any more: free what it has kept. */
+    void
+    forget_update();
+
     /** @brief Begin with this status and force, after a change of the mesh. */
     void
     adopt(const ContactRow &row, ContactStatus status, const dealii::Tensor<1, dim> &force);

@@ -168,9 +168,10 @@ namespace Touchstone
     /** Of the nodes of the known faces, the least and the most since the start of the step. */
     dealii::Tensor<1, dim> least_moved, most_moved;
 
-    /** Displacements of this rank's faces at the start of the step. */
-    std::vector<Displacements> committed;
-    bool                       has_committed = false;
+    /** Displacements at the start of the step, of the nodes of this rank's faces, face by face: all
+     * have as many. */
+    std::vector<dealii::Tensor<1, dim>> committed;
+    bool                                has_committed = false;
 
     /** Indices of this rank's faces that each rank has received, and where its own
      * copies of those of another rank begin. */

@@ -75,6 +75,14 @@ namespace Touchstone
     void
     update(const std::vector<dealii::Point<dim>> &positions);
 
+    /** @brief Free the memory of the faces until the next update. */
+    void
+    forget()
+    {
+      drop_tree();
+      received.forget();
+    }
+
     /**
      * @brief The partner of a node.
      *
@@ -157,6 +165,9 @@ namespace Touchstone
     /** The boxes near a point; kept for its memory alone. */
     mutable std::vector<std::pair<double, std::size_t>> boxes;
 
+    /** Before its faces move or go. */
+    void
+    drop_tree();
     /** The closest face within reach, or the present one if that is as close. */
     ClosestFaces
     closest(const SlavePoint &point) const;
