@@ -2,13 +2,17 @@
 """Active sets that cycled: a point inside a slave face between stick and slip, when its step was
 solved from a state without it, and rows of a body that yields, judged before their set was solved; and nodes
 that went to and fro between two faces of a valley. Nodes that an iterate has closed beyond the end of the
-master. One answer of all enforcements and solvers, and on two ranks."""
+master. A node in the dent that it has made in a smooth surface of degree 2, the sides of which were a sharp edge
+in every other iterate, and on the edge between two faces there. One answer of all enforcements and solvers, and on two ranks."""
 
 from touchstone_test import AUGMENTED, GMRES, MULTIPLIERS, below, check, checks, finish, run, tests
 
 YIELDS = {"Body block/Material/Law": "small-strain von Mises",
           **{f"Body block/Material/Plasticity/{key}": value for key, value in (
               ("Hardening", "linear"), ("Yield stress", 5), ("Hardening modulus", 100))}}
+# Three nodes and then one in a dent of a cap, in which a node comes to rest on the edge between two faces.
+DENT = {"Body top/Boundary far/Displacement x": "0.1 * max(0, t - 1)",
+        "Body top/Boundary far/Displacement z": "-0.05 * min(1, t)", "Load stepping/Steps": 3}
 ALL = {"multipliers": (MULTIPLIERS, 1, 1e-6), "augmented": (AUGMENTED, 1, 1e-5), "ranks": ({}, 2, 1e-6),
        "gmres": (GMRES, 1, 1e-6)}
 # The support of the last jumps to the other side at t = 0, 1.5 and 2.5: no step is short enough for it.
@@ -17,6 +21,8 @@ for name, scene, settings, cuts, others in (
         ("tube", checks / "tube_in_wide_faces.prm", {}, 1, ["ranks"]),
         ("end", checks / "beyond_the_end.prm", {}, 0, ["gmres"]),
         ("valley", checks / "node_in_valley.prm", {}, 0, ALL),
+        ("apex", tests / "repeated_step.prm", {}, 0, ["multipliers", "augmented", "ranks"]),
+        ("dent", tests / "repeated_step.prm", DENT, 0, ["multipliers", "ranks"]),
         ("rocking", tests / "hard_rocking.prm", YIELDS, 0, ["multipliers", "augmented", "ranks"])):
     one = run(name, scene, settings)
     most = max(one.column("cuts"))

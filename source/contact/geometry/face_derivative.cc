@@ -313,11 +313,21 @@ namespace Touchstone
       return result;
     }
 
-    /** Whether the normal is that of each face alone. */
+    /** Whether the normal jumps over edges: that of each face alone, and that of a moved exact
+     * surface by the part of the strain that nodal normals do not take out of it. */
     bool
-    of_faces(const FaceGeometry &geometry)
+    jumps_over_edges(const FaceGeometry &geometry)
     {
-      return !geometry.interpolates_normals() && !geometry.smooth();
+      return !geometry.smooth() &&
+             (!geometry.interpolates_normals() || geometry.exact_surface() != nullptr);
+    }
+
+    /** The face with the normal on its edges, interpolated from those of the nodes of the edge
+     * alone, which other faces have in common with it. */
+    FaceGeometry
+    with_common_normal(const Face &face)
+    {
+      return {face, nullptr, MasterNormal::averaged};
     }
   } // namespace
 
@@ -332,10 +342,10 @@ namespace Touchstone
     const Tensor<1, dim> normal = geometry.normal(shapes, point);
     unsigned int         decides;
     const double         part = at_edge(geometry.face(), xi, decides);
-    if (!of_faces(geometry) || part == 0.)
+    if (!jumps_over_edges(geometry) || part == 0.)
       return normal;
-    const FaceGeometry averaged(geometry.face(), geometry.exact_surface(), MasterNormal::averaged);
-    const Tensor<1, dim> sum = (1. - part) * normal + part * averaged.normal(shapes, point);
+    const FaceGeometry   common = with_common_normal(geometry.face());
+    const Tensor<1, dim> sum    = (1. - part) * normal + part * common.normal(shapes, point);
     return sum / sum.norm();
   }
 
@@ -347,10 +357,10 @@ namespace Touchstone
     FaceDerivative result = FaceDifferentiator(geometry).at(xi);
     unsigned int   decides;
     const double   part = at_edge(geometry.face(), xi, decides);
-    if (!of_faces(geometry) || part == 0.)
+    if (!jumps_over_edges(geometry) || part == 0.)
       return result;
-    const FaceGeometry averaged(geometry.face(), geometry.exact_surface(), MasterNormal::averaged);
-    const FaceDerivative other     = FaceDifferentiator(averaged).at(xi);
+    const FaceGeometry   common    = with_common_normal(geometry.face());
+    const FaceDerivative other     = FaceDifferentiator(common).at(xi);
     const Tensor<1, dim> sum       = (1. - part) * result.normal + part * other.normal;
     const Tensor<2, dim> direction = normalisation_derivative(sum);
     for (unsigned int a = 0; a < 2; ++a)
@@ -365,7 +375,8 @@ namespace Touchstone
       {
         result.normal_position[m] =
           direction * ((1. - part) * result.normal_position[m] + part * other.normal_position[m]);
-        result.normal_normal[m] = direction * (part * other.normal_normal[m]);
+        result.normal_normal[m] =
+          direction * ((1. - part) * result.normal_normal[m] + part * other.normal_normal[m]);
       }
     result.normal = sum / sum.norm();
     return result;

@@ -81,13 +81,17 @@ namespace Touchstone
 
 
   Tensor<2, dim>
-  MirrorImages::averaged_with(const Tensor<1, dim> &other, const Tensor<1, dim> &own) const
+  MirrorImages::averaged_with(const NormalsAtNode &other, const NormalsAtNode &own) const
   {
+    const auto meets_smoothly = [&](const Tensor<2, dim> &image) {
+      return own.present * (image * other.present) > Tolerances::sharp_edge_cosine ||
+             own.turned * (image * other.turned) > Tolerances::sharp_edge_cosine;
+    };
     Tensor<2, dim> result;
-    if (other * own > Tolerances::sharp_edge_cosine)
+    if (meets_smoothly(identity))
       result = identity;
     for (const Tensor<2, dim> &image : reflections)
-      if (own * (image * other) > Tolerances::sharp_edge_cosine)
+      if (meets_smoothly(image))
         result += image;
     return result;
   }

@@ -211,7 +211,13 @@ namespace Touchstone
         return a.first->key < b.first->key;
       });
     for (auto &[node, list] : around)
-      surface_nodes.push_back({node, {}, std::move(list)});
+      {
+        std::vector<Tensor<1, dim>> as_made;
+        for (const auto &[face, m] : list)
+          as_made.push_back(
+            evaluate(*face, exact_surface(*face), node_coordinates(*face, m)).normal());
+        surface_nodes.push_back({node, {}, std::move(list), std::move(as_made)});
+      }
   }
 
 

@@ -121,6 +121,15 @@ namespace Touchstone
 
 
 
+  NormalsAtNode
+  Surface::normals_at(const NodeOfFaces &node, const std::size_t i)
+  {
+    const auto &[face, m] = node.faces[i];
+    return {face->own_normals[m], facet_rotation(*face) * node.as_made[i]};
+  }
+
+
+
   void
   Surface::average_normals(NodeOfFaces &node)
   {
@@ -146,15 +155,17 @@ namespace Touchstone
     if (const double length = all.norm(); length > 0.)
       all /= length;
     node.normal = all;
-    for (const auto &[face, m] : node.faces)
+    at_node.clear();
+    // Around a smooth node both averages are the same for all faces.
+    for (std::size_t i = 0; i < parts.size() && !smooth; ++i)
+      at_node.push_back(normals_at(node, i));
+    for (std::size_t k = 0; k < parts.size(); ++k)
       {
+        const auto &[face, m] = node.faces[k];
         face->edge_normals[m] = face->normals[m] = all;
-        // Around a smooth node both averages are the same for all faces.
-        if (smooth)
-          continue;
         Tensor<1, dim> sum;
-        for (std::size_t i = 0; i < parts.size(); ++i)
-          sum += node.images.averaged_with(unit(node.faces[i]), face->own_normals[m]) * parts[i];
+        for (std::size_t i = 0; i < at_node.size(); ++i)
+          sum += node.images.averaged_with(at_node[i], at_node[k]) * parts[i];
         if (const double length = sum.norm(); length > 0.)
           face->normals[m] = sum / length;
       }
@@ -183,11 +194,15 @@ namespace Touchstone
   {
     const NodeOfFaces       &node = node_of_faces(face.nodes[m]);
     std::vector<NormalShare> result;
-    for (const auto &[other, k] : node.faces)
-      if (const Tensor<2, dim> weight =
-            node.images.averaged_with(other->own_normals[k], face.own_normals[m]);
+    const auto own = std::find_if(node.faces.begin(), node.faces.end(), [&](const auto &at) {
+      return at.first->key == face.key && at.second == m;
+    });
+    AssertThrow(own != node.faces.end(), ExcInternalError());
+    const NormalsAtNode normals = normals_at(node, own - node.faces.begin());
+    for (std::size_t i = 0; i < node.faces.size(); ++i)
+      if (const Tensor<2, dim> weight = node.images.averaged_with(normals_at(node, i), normals);
           weight.norm() > 0.)
-        result.push_back({other, k, weight});
+        result.push_back({node.faces[i].first, node.faces[i].second, weight});
     return result;
   }
 

@@ -10,10 +10,11 @@ namespace Touchstone
   /**
    * @brief Unit normal of a master surface at one point, as a node meets it.
    *
-   * That of FaceGeometry, and continuous with `Master normal = face`, too (doc/theory.md 4,
-   * "Normals"): beside the edge between two faces it turns from that of the face to the averaged
-   * one, which both faces have on their common edge. In a valley between two faces a node is
-   * balanced by a direction between their normals, on neither side of the edge by that of the face.
+   * That of FaceGeometry, and continuous with `Master normal = face` and on exact surfaces, too
+   * (doc/theory.md 4, "Normals"): beside the edge between two faces it turns to the interpolation
+   * of nodal normals, which both faces have on their common edge. In a valley between two faces a
+   * node is balanced by a direction between their normals, on neither side of the edge by that of
+   * the face.
    *
    * @param point geometry.evaluate(xi).
    */

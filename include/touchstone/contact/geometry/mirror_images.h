@@ -11,6 +11,15 @@
 
 namespace Touchstone
 {
+  /** @brief Unit normals of a face at one of its nodes. */
+  struct NormalsAtNode
+  {
+    /** In the present state. */
+    dealii::Tensor<1, dim> present;
+    /** In the reference state, turned with the facet: without what bends the face. */
+    dealii::Tensor<1, dim> turned;
+  };
+
   /**
    * @brief What the other halves of a body have at a point on planes of symmetry: of each area
    * vector there its images, mirrored at these planes (doc/theory.md 4, "Normals").
@@ -40,11 +49,14 @@ namespace Touchstone
     bool
     smooth(const dealii::Tensor<1, dim> &one, const dealii::Tensor<1, dim> &other) const;
 
-    /** @brief The sum over the images of a face with the unit normal @p other that a face with the
-     * unit normal @p own does not meet in a sharp edge, as a matrix that acts on the area vector of
-     * the former: zero if there are none. */
+    /** @brief The sum over the images of a face with the normals @p other that a face with the
+     * normals @p own does not meet in a sharp edge, as a matrix that acts on the area vector of
+     * the former: zero if there are none.
+     *
+     * An edge is sharp by both normals: a node pressed into a smooth surface bends the faces around
+     * it, which have not turned (doc/theory.md 4, "Normals"). */
     dealii::Tensor<2, dim>
-    averaged_with(const dealii::Tensor<1, dim> &other, const dealii::Tensor<1, dim> &own) const;
+    averaged_with(const NormalsAtNode &other, const NormalsAtNode &own) const;
 
     /** @brief The sum over all images as a matrix that acts on the sum of area vectors @p sum: they
      * have no component across the planes. The identity where this would leave nothing: the

@@ -223,6 +223,8 @@ namespace Touchstone
       /** Faces around it, with its local index there, in the order in which their normals
        * are summed. */
       std::vector<std::pair<Face *, unsigned int>> faces;
+      /** Their unit normals here in the reference state. */
+      std::vector<dealii::Tensor<1, dim>> as_made;
       /** What is averaged with these beyond planes of symmetry. */
       MirrorImages images = {};
     };
@@ -230,6 +232,7 @@ namespace Touchstone
     std::vector<NodeOfFaces> surface_nodes;
     /** Of one node, for average_normals(). */
     std::vector<dealii::Tensor<1, dim>> parts;
+    std::vector<NormalsAtNode>          at_node;
 
     /** Faces around a node, each with the local index of the node there. */
     using CornersOfFaces = std::vector<std::pair<const Face *, unsigned int>>;
@@ -251,6 +254,9 @@ namespace Touchstone
     /** Tangents of a face at a node in the present position. */
     std::array<dealii::Tensor<1, dim>, 2>
     tangents(const Face &face, unsigned int m) const;
+    /** Normals of the face number @p i around a node. */
+    static NormalsAtNode
+    normals_at(const NodeOfFaces &node, std::size_t i);
     /** @param node Its faces have their area vectors as normals, which are replaced. */
     void
     average_normals(NodeOfFaces &node);
