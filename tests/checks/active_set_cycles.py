@@ -21,8 +21,8 @@ for name, scene, settings, cuts, others in (
         ("tube", checks / "tube_in_wide_faces.prm", {}, 1, ["ranks"]),
         ("end", checks / "beyond_the_end.prm", {}, 0, ["gmres"]),
         ("valley", checks / "node_in_valley.prm", {}, 0, ALL),
-        ("apex", tests / "repeated_step.prm", {}, 0, ["multipliers", "augmented", "ranks"]),
-        ("dent", tests / "repeated_step.prm", DENT, 0, ["multipliers", "ranks"]),
+        ("apex", tests / "dent_in_cap.prm", {}, 0, ["multipliers", "augmented", "ranks"]),
+        ("dent", tests / "dent_in_cap.prm", DENT, 0, ["multipliers", "ranks"]),
         ("rocking", tests / "hard_rocking.prm", YIELDS, 0, ["multipliers", "augmented", "ranks"])):
     one = run(name, scene, settings)
     most = max(one.column("cuts"))
