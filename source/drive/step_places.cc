@@ -11,10 +11,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <tuple>
+#include <vector>
 
-// Where a body with a nonlinear law is compressed most, and friction that leaves rows no solution,
-// for the messages of a step that fails.
+// Where a body with a nonlinear law is compressed most, and friction and ties that leave rows no
+// solution, for the messages of a step that fails.
 namespace Touchstone
 {
   using namespace dealii;
@@ -156,6 +158,17 @@ namespace Touchstone
           if (std::abs(row.friction->kinematics.slip * tangent) >
               scene.newton.gap_tolerance * row.size)
             found[row.pair] = 1;
+    // The same of tied nodes, whose conditions contradict each other then.
+    std::map<Index, std::vector<Tensor<1, dim>>> prescribed;
+    for (const auto &one : boundary_conditions.displacements(time))
+      prescribed[one.node].push_back(one.direction);
+    for (const ContactRow &row : contact.rows())
+      if (const auto held = prescribed.find(row.slave); row.tied && contact.state(row).active() &&
+                                                        !contact.state(row).dropped() &&
+                                                        held != prescribed.end())
+        for (const Tensor<1, dim> &direction : held->second)
+          if (std::abs(row.gap_vector * direction) > scene.newton.gap_tolerance * row.size)
+            found[row.pair] = 1;
     Utilities::MPI::max(found, solid.communicator, found);
     std::string names;
     for (unsigned int p = 0; p < found.size(); ++p)
@@ -163,7 +176,8 @@ namespace Touchstone
         names += (names.empty() ? "'" : ", '") + contact.pair(p).parameters().name + "'";
     return names.empty() ? names
                          : "; supports hold slave nodes of " + names +
-                             " that stick, and the master may have too few nodes to follow all "
-                             "of them: exchange slave and master, or refine the master surface";
+                             " that stick or are tied, and the master may have too few nodes to "
+                             "follow all of them: exchange slave and master, or refine the master "
+                             "surface";
   }
 } // namespace Touchstone

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
-on disk; and names the law of a material that gives way."""
+on disk; and names the law of a material that gives way, and ties that contradict each other."""
 # ctest: label = quick
 
 import re
@@ -32,4 +32,12 @@ failed = run("law_gives_way", pressed, fails=True)
 for reason in "body 'press' at (", "by its 'Law' it resists no longer":
     failed.says(reason)
 run("law_holds", pressed, {"Body press/Material/Law": "neo-Hookean"})
+# Conditions that contradict each other, and the remedy.
+driven = checks / "tied_driven_nodes.prm"
+failed = run("tied_driven_nodes", driven, fails=True)
+for reason in "supports hold slave nodes of 'joint'", "exchange slave and master":
+    failed.says(reason)
+joint = "Contact pair joint"
+run("tied_exchanged", driven, {f"{joint}/Slave body": "outer", f"{joint}/Slave boundaries": "inner",
+                               f"{joint}/Master body": "inner", f"{joint}/Master boundaries": "outer"})
 finish()
