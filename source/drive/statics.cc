@@ -45,7 +45,7 @@ namespace Touchstone
         time = t;
         // Loads that grow in proportion to time move the bodies in proportion to it: the
         // extrapolated displacement often has the right active set already.
-        if (guesses)
+        if (motion.size() > 0 && guesses)
           u.add(time - committed_time, motion);
         // A vector less in the linear solver; the end of the step has another motion.
         motion.clear();
@@ -131,7 +131,8 @@ namespace Touchstone
       const bool    guesses;
       /**
        * Velocity of the last step, length per time, for the extrapolation; zero if it does not
-       * predict the next step, empty within a step.
+       * predict the next step, empty within a step: one that is begun once more has been
+       * extrapolated.
        */
       Vector motion;
       /** Displacement of the step that end_step() has seen, length; empty once it is committed. */

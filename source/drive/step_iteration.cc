@@ -60,7 +60,7 @@ namespace Touchstone
   {
     {
       TimerOutput::Scope scope(timer, "assembly");
-      // Cleared by solve(). Copies of a layout: to make one takes messages.
+      // Cleared by solve(), perhaps. Copies of a layout: to make one takes messages.
       for (Vector *const vector : {&internal, &applied})
         if (vector->size() == 0)
           *vector = Vector(solid.zero_vector());
@@ -173,8 +173,11 @@ namespace Touchstone
   {
     TimerOutput::Scope scope(timer, "linear solver");
     // The linear solver takes most memory of a run; the next residual makes these forces anew.
-    internal.clear();
-    applied.clear();
+    if (system->applies_operator())
+      {
+        internal.clear();
+        applied.clear();
+      }
     const int iterations = system->solve(solved_increment);
     check_increment();
     system->recover(solved_increment);

@@ -107,7 +107,7 @@ namespace Touchstone
     constrain(needed);
     if (solver->wants_basis_change(size()))
       change_basis(needed);
-    condensed = std::make_unique<CondensedSystem>(*system, solver->applies_operator(size()));
+    condensed = std::make_unique<CondensedSystem>(*system, applies_operator());
   }
 
 
@@ -333,7 +333,6 @@ namespace Touchstone
   {
     const unsigned int before = solver->counts().iterations;
     Epetra_Vector      solution(condensed->rows());
-    increment.clear(); // its memory while the solver needs most
     solver->solve(*condensed, modes.motions(), solution);
     const Index n = parts.solid.owned.n_elements();
     increment     = Vector(system->rhs); // its layout without a message
@@ -344,7 +343,7 @@ namespace Touchstone
     // contact is searched, which needs memory of its own.
     condensed.reset();
     system->stiffness->free_work_space();
-    if (solver->applies_operator(size()))
+    if (applies_operator())
       give_back_free_memory();
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);

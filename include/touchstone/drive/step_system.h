@@ -113,6 +113,14 @@ namespace Touchstone
       return *solver;
     }
 
+    /** @brief Whether the linear solver applies the operator instead of factorising it: vectors are
+     * a good part of the memory then. */
+    bool
+    applies_operator() const
+    {
+      return solver->applies_operator(size());
+    }
+
     /** @brief The free motions that needed stabilisation in the last assemble(), in words. */
     const std::string &
     stabilised() const

@@ -199,7 +199,12 @@ namespace Touchstone
                                    return one.before && !one.held;
                                  }),
                   found.end());
-      drop_covered(rows, found);
+      std::vector<int> any = {!found.empty(), on_edges && on_edges->replaces_any()};
+      Utilities::MPI::max(any, input.solid->communicator, any);
+      if (any[0] == 1)
+        drop_covered(rows, found);
+      if (on_edges && any[1] == 0)
+        on_edges->forget();
       choose(found, rows);
       replace_rows_of_nodes(found, rows);
     }
@@ -213,8 +218,6 @@ namespace Touchstone
     EdgePairing::drop_covered(const std::vector<ContactRow>  &rows,
                               std::vector<FoundBetweenNodes> &found)
     {
-      if (Utilities::MPI::max(static_cast<int>(!found.empty()), input.solid->communicator) == 0)
-        return;
       enum
       {
         touches,

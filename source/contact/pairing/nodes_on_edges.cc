@@ -72,11 +72,6 @@ namespace Touchstone
         edges[k]->set(row);
       }
     edges.end_update();
-    // Faces are large, and nothing refers to them if no node stands on an edge.
-    const bool none =
-      std::none_of(on_edges.begin(), on_edges.end(), [&](const auto k) { return replaces(k); });
-    if (Utilities::MPI::min(static_cast<int>(none), input.solid->communicator) == 1)
-      search.forget();
   }
 
 

@@ -6,6 +6,7 @@
 #include <touchstone/contact/pairing/edge_on_edge.h>
 #include <touchstone/contact/pairing/pairing.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,15 @@ namespace Touchstone
     size() const
     {
       return edges.size();
+    }
+
+    /** @brief Whether a node of this rank stands on an edge since the last update. */
+    bool
+    any() const
+    {
+      return std::any_of(edges.begin(), edges.end(), [](const auto &edge) {
+        return edge.has_value();
+      });
     }
 
     /** @brief A step ends with the last update. */

@@ -37,6 +37,21 @@ namespace Touchstone
       return edges[k].has_value();
     }
 
+    /** @brief Whether the row of any node of this rank has been replaced. */
+    bool
+    replaces_any() const
+    {
+      return edges.any();
+    }
+
+    /** @brief No rank has replaced a row: free the memory of the faces, which are large, until the
+     * next update. */
+    void
+    forget()
+    {
+      search.forget();
+    }
+
     /** @brief Which of the nodes stay on their edges in a step. */
     EdgesUnderNodes &
     decisions()
