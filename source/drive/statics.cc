@@ -131,8 +131,8 @@ namespace Touchstone
       const bool    guesses;
       /**
        * Velocity of the last step, length per time, for the extrapolation; zero if it does not
-       * predict the next step, empty within a step: one that is begun once more has been
-       * extrapolated.
+       * predict the next step. Empty from begin_step() on, which has used it, to the end of the
+       * step.
        */
       Vector motion;
       /** Displacement of the step that end_step() has seen, length; empty once it is committed. */

@@ -60,7 +60,7 @@ namespace Touchstone
   {
     {
       TimerOutput::Scope scope(timer, "assembly");
-      // Cleared by solve(), perhaps. Copies of a layout: to make one takes messages.
+      // solve() clears them for iterative solvers. Copies of a layout: to make one takes messages.
       for (Vector *const vector : {&internal, &applied})
         if (vector->size() == 0)
           *vector = Vector(solid.zero_vector());

@@ -2,8 +2,6 @@
 
 #include <touchstone/contact/pairing/nodes_on_edges.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 
 // Slave nodes on edges of the master for pairings that know nothing of edges (doc/theory.md 4.2).
