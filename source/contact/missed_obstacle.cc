@@ -100,18 +100,12 @@ namespace Touchstone
 
 
   MeasuredFace::Xi
-  MissedContact::deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const
+  MissedContact::descend(const MeasuredFace &slave, MeasuredFace::Xi xi) const
   {
-    const auto gap = [&](const MeasuredFace::Xi &xi) {
-      return pair.pairing().distance(evaluate(slave.face, slave.exact, xi).x, contact.time());
+    const auto gap = [&](const MeasuredFace::Xi &at) {
+      return pair.pairing().distance(evaluate(slave.face, slave.exact, at).x, contact.time());
     };
-    std::vector<Sample> samples;
-    for (const double a : MeasuredFace::samples)
-      for (const double b : MeasuredFace::samples)
-        if (const MeasuredFace::Xi xi = {{a, b}}; gap(xi) < 0.)
-          samples.push_back({xi, -gap(xi)});
-    MeasuredFace::Xi xi       = samples.empty() ? start : middle(samples);
-    const Gradient   gradient = [&](const MeasuredFace::Xi &at) {
+    const Gradient gradient = [&](const MeasuredFace::Xi &at) {
       const FacePoint point = evaluate(slave.face, slave.exact, at);
       const auto      there = pair.pairing().at(point.x, contact.time());
       return std::array<double, 2>{
@@ -136,6 +130,40 @@ namespace Touchstone
           break;
       }
     return xi;
+  }
+
+
+
+  MeasuredFace::Xi
+  MissedContact::deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const
+  {
+    const auto depth = [&](const MeasuredFace::Xi &xi) {
+      return -pair.pairing().distance(evaluate(slave.face, slave.exact, xi).x, contact.time());
+    };
+    // The overlap may be narrower than the distance of samples: then what is deepest beside each of
+    // them. Along a ridge round-off would choose one of many places.
+    std::vector<Sample> samples;
+    for (const bool down : {false, true})
+      if (samples.empty())
+        for (const double a : MeasuredFace::samples)
+          for (const double b : MeasuredFace::samples)
+            {
+              const MeasuredFace::Xi xi =
+                down ? descend(slave, {{a, b}}) : MeasuredFace::Xi{{a, b}};
+              if (const double here = depth(xi); here > 0.)
+                samples.push_back({xi, here});
+            }
+    if (samples.empty())
+      return descend(slave, start);
+    const MeasuredFace::Xi between = descend(slave, middle(samples));
+    // Between two places of an obstacle there may be less of it, or none.
+    const Sample &deepest =
+      *std::max_element(samples.begin(), samples.end(), [](const Sample &a, const Sample &b) {
+        return a.depth < b.depth;
+      });
+    return depth(between) < deepest.depth - Tolerances::on_edge * slave.size()
+             ? descend(slave, deepest.xi)
+             : between;
   }
 
 

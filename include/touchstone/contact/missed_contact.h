@@ -137,7 +137,11 @@ namespace Touchstone
     /** The deepest point of an obstacle in each idle face, and behind it. Collective. */
     std::vector<Overlap>
     obstacle_within(const std::vector<Face> &slaves) const;
-    /** Where an obstacle is deepest on a slave face. @param start Where to begin, if it is within
+    /** Where an obstacle is deepest on a slave face near @p xi, by Newton's method. */
+    MeasuredFace::Xi
+    descend(const MeasuredFace &slave, MeasuredFace::Xi xi) const;
+    /** Where an obstacle is deepest on a slave face; in the middle of places that are as deep.
+     * @param start Where to begin, if it is within
      * no point that is tried. */
     MeasuredFace::Xi
     deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const;
