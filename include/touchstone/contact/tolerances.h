@@ -133,11 +133,11 @@ namespace Touchstone
      * would be left, above the second, nodes may receive parts of others. */
     constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 1. / 3.;
 
-    /** Largest ratio r of the area that a node has given away to that which it keeps, beyond which
-     * it has no row; and the growth of the gap, by the size of the face, at r = 1 (doc/theory.md
-     * 3.1, equation (6)). It grows with the fourth power of r, so that for gaps from 1e-5 to 0.1 of
-     * a face the row opens while the edge moves by a good part of a face. */
-    constexpr double most_given = 3., gap_growth = 0.01;
+    /** Largest ratio r of the area that a node has lost to that which it keeps, beyond which
+     * it has no row (CoverSums::loss()); and the growth of the gap, by the size of the face, at r =
+     * 1 (doc/theory.md 3.1, equation (6)). It grows with the fourth power of r, so that for gaps
+     * from 1e-5 to 0.1 of a face the row opens while the edge moves by a good part of a face. */
+    constexpr double most_lost = 3., gap_growth = 0.01;
 
     /** Kept area by the tributary area below which a node has no row. */
     constexpr double least_cover = 1e-6;

@@ -13,16 +13,44 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** The mean of an integral with N~_k, zero where that has no positive area. */
+    double
+    mean_of(const CoverSums &sums, const double integral)
+    {
+      return sums.shape_area > 0. ? integral / sums.shape_area : 0.;
+    }
+
+    /** r of equation (6). @param inclined Mean of OverlapSample::inclined. */
+    template <typename Number>
+    Number
+    loss(const Number &given, const Number &kept, const Number &inclined)
+    {
+      return (given / kept + inclined) / (1. - inclined);
+    }
+  } // namespace
+
+
+
+  double
+  CoverSums::loss() const
+  {
+    return Touchstone::loss(given, kept, mean_of(*this, inclined));
+  }
+
+
+
   bool
   CoverSums::suffices(const double whole) const
   {
-    // A row needs some covered area of its own, at most r = 3 of it given away (doc/theory.md 3.1),
+    // A row needs some covered area of its own, at most r = 3 of it lost (doc/theory.md 3.1),
     // and a normal. Without the rows of parts that are kept as a whole a pressure would be lost.
     // What a node that leaves its row to others comes to touch within a step, beyond the edge of
     // its faces, is a sliver without a row until the step ends.
     return kept >= Tolerances::least_cover * whole &&
-           Tolerances::most_given * kept >= std::max((1. - shared) * given, left_to_others) &&
-           normal.norm_square() > 0.;
+           Tolerances::most_lost >= (1. - shared) * loss() &&
+           Tolerances::most_lost * kept >= left_to_others && normal.norm_square() > 0.;
   }
 
 
@@ -30,7 +58,7 @@ namespace Touchstone
   namespace
   {
     /** What the correction depends on, with derivatives. */
-    using Number = Sacado::Fad::SFad<double, 15>;
+    using Number = Sacado::Fad::SFad<double, 16>;
     enum class Of
     {
       mean_gap,
@@ -42,6 +70,7 @@ namespace Touchstone
       area,
       moved,
       arch,
+      inclined,
       face_mean,
       face_positive,
       face_own,
@@ -53,21 +82,14 @@ namespace Touchstone
     Number
     variable(const Of which, const double value)
     {
-      return Number(15, static_cast<int>(which), value);
+      return Number(16, static_cast<int>(which), value);
     }
 
-    /** Displacement at the node less the mean, and mean distance of the slave surface from its
-     * facets. */
+    /** Displacement at the node less the mean. */
     Tensor<1, dim>
     relative_motion(const CoverSums &sums)
     {
       return sums.own_moved - sums.moved / sums.area;
-    }
-
-    double
-    mean_arch(const CoverSums &sums)
-    {
-      return sums.shape_area > 0. ? sums.arch / sums.shape_area : 0.;
     }
 
 
@@ -131,9 +153,10 @@ namespace Touchstone
   {
     // The corrections of equations (6) and (7) with derivatives by all that they depend on.
     const Number at_mean = variable(Of::mean_gap, mean), at_least = variable(Of::least, sums.least),
-                 at_kept  = variable(Of::kept, sums.kept),
-                 at_given = variable(Of::given, sums.given);
-    Number result         = 0.;
+                 at_kept     = variable(Of::kept, sums.kept),
+                 at_given    = variable(Of::given, sums.given),
+                 at_inclined = variable(Of::inclined, mean_of(sums, sums.inclined));
+    Number result            = 0.;
     // chi of section 3.1: whether anything near the node is covered.
     const Number from_node = variable(Of::beside, sums.beside);
     const Number near = 1. - smooth_step(from_node, Tolerances::near_node, Tolerances::far_of_node);
@@ -156,7 +179,7 @@ namespace Touchstone
         // meshes that do not match interpolate differently, make such differences all over a
         // contact, and rows that followed them would depend on their neighbours there.
         const Number shape = above - variable(Of::moved, normal * relative_motion(sums)),
-                     arch  = variable(Of::arch, mean_arch(sums)) +
+                     arch  = variable(Of::arch, mean_of(sums, sums.arch)) +
                             (Tolerances::flat_arch * (1. - beside) +
                              Tolerances::flat_arch_beside * beside) *
                               size;
@@ -170,12 +193,8 @@ namespace Touchstone
         smooth_step(Number(at_least / size), Tolerances::hardly_open, Tolerances::well_open);
     // 0.01 h r^4 of equation (6): the row opens before its area vanishes. Where other pairs cover
     // the rest it need not: parts are kept as a whole or not at all.
-    if (at_given > 0. && sums.shared < 1.)
-      {
-        const Number ratio = at_given / at_kept;
-        result +=
-          (1. - sums.shared) * Tolerances::gap_growth * size * ratio * ratio * ratio * ratio;
-      }
+    if (const Number lost = loss(at_given, at_kept, at_inclined); lost > 0. && sums.shared < 1.)
+      result += (1. - sums.shared) * Tolerances::gap_growth * size * lost * lost * lost * lost;
     const auto by    = [&result](const Of which) { return result.dx(static_cast<int>(which)); };
     value            = result.val();
     by_mean          = by(Of::mean_gap);
@@ -187,6 +206,7 @@ namespace Touchstone
     by_area          = by(Of::area);
     by_moved         = by(Of::moved);
     by_arch          = by(Of::arch);
+    by_inclined      = by(Of::inclined);
     by_face_mean     = by(Of::face_mean);
     by_face_positive = by(Of::face_positive);
     by_face_own      = by(Of::face_own);
@@ -208,7 +228,8 @@ namespace Touchstone
     , images(sums.images)
     , own_moved(sums.own_moved)
     , moved(relative_motion(sums))
-    , arch(mean_arch(sums))
+    , arch(mean_of(sums, sums.arch))
+    , inclined(mean_of(sums, sums.inclined))
     , correction(sums, normal, mean * normal, size)
   {
     // Normalised by D_kk and not by D, like the weights of the stencil, so that gap and stencil
@@ -243,6 +264,8 @@ namespace Touchstone
         if (shape_area > 0.)
           d_value += correction.by_arch * (d.arch - arch * d.shape_area) / shape_area;
       }
+    if (shape_area > 0.)
+      d_value += correction.by_inclined * (d.inclined - inclined * d.shape_area) / shape_area;
     if (const FaceShare *face = correction.face)
       {
         // Means of the face are quotients, too.

@@ -141,6 +141,7 @@ namespace Touchstone
                 sum.given[e] += weight * (d.area - d.share[k]);
                 sum.shape_area[e] += weight * d.area;
                 sum.arch[e] += weight * d.arch;
+                sum.inclined[e] += weight * d.inclined;
                 if (part)
                   sum.reference[e] += weight * d.reference;
                 for (unsigned int c = 0; c < dim; ++c)

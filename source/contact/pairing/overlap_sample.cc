@@ -38,6 +38,7 @@ namespace Touchstone
     // (doc/theory.md 1).
     const Tensor<1, dim> gap = x - on_master.x;
     sample.weight            = part * point.weight;
+    sample.inclined          = 1. - part;
     Tensor<1, dim> arch      = x, moved;
     for (unsigned int m = 0; m < n; ++m)
       {
@@ -123,15 +124,16 @@ namespace Touchstone
 
 
 
-    /** The weight of a point, reduced by FacingPart where the surfaces are inclined.
-     * @return false if nothing is left. */
+    /** The weight of a point, reduced by FacingPart where the surfaces are inclined, and by how
+     * much less than all that is. @return false if nothing is left. */
     template <unsigned int n>
     bool
     differentiate_weight(const Face                      &slave,
                          const OverlapPointDerivative<n> &point,
                          const FaceGeometry              &master,
                          const FaceDerivative            &on_master,
-                         PositionFad<n>                  &weight)
+                         PositionFad<n>                  &weight,
+                         PositionFad<n>                  &inclined)
     {
       constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
       const double           cosine      = facing_cosine(
@@ -139,6 +141,7 @@ namespace Touchstone
       // Product rule: weight = S(c) times area weight.
       const FacingPart part(cosine);
       weight.val() = part.value * point.weight;
+      inclined     = 1. - part.value;
       for (unsigned int v = 0; v < n_variables; ++v)
         weight.fastAccessDx(v) = part.value * point.d_weight[v];
       // Up to 45 degrees the factor is constant, and this costs nothing.
@@ -146,7 +149,10 @@ namespace Touchstone
         {
           const auto d_cosine = cosine_derivative<n>(slave, point, master, on_master);
           for (unsigned int v = 0; v < n_variables; ++v)
-            weight.fastAccessDx(v) += point.weight * part.by_cosine * d_cosine[v];
+            {
+              weight.fastAccessDx(v) += point.weight * part.by_cosine * d_cosine[v];
+              inclined.fastAccessDx(v) = -part.by_cosine * d_cosine[v];
+            }
         }
       return part.value > 0.;
     }
@@ -204,7 +210,8 @@ namespace Touchstone
                 OverlapSample<n, PositionFad<n>> &sample)
   {
     constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
-    if (!differentiate_weight<n>(slave.face(), point, master, on_master, sample.weight))
+    if (!differentiate_weight<n>(
+          slave.face(), point, master, on_master, sample.weight, sample.inclined))
       return false;
 
     // Both points move on their faces as the overlap changes (d xi), and with the nodes.

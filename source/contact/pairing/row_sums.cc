@@ -57,6 +57,7 @@ namespace Touchstone
     for (unsigned int j = 0; j < n; ++j)
       {
         arch += dual.shape(k, j) * part.q[j][OverlapColumns::arch];
+        inclined += dual.shape(k, j) * part.q[j][OverlapColumns::inclined];
         shape_area += dual.shape(k, j) * part.q[j][OverlapColumns::area];
       }
     if (!face)

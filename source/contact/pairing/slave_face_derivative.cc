@@ -150,11 +150,12 @@ namespace Touchstone
       change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
     change.reference *= whole[k] / present[k];
     change.shape_gap = Tensor<1, dim>();
-    change.arch      = 0.;
+    change.arch = change.inclined = 0.;
     for (unsigned int j = 0; j < n; ++j)
       if (const double c = dual.shape(k, j); c != 0.)
         {
           change.arch += c * d_q(v, j, OverlapColumns::arch);
+          change.inclined += c * d_q(v, j, OverlapColumns::inclined);
           for (unsigned int d = 0; d < dim; ++d)
             change.shape_gap[d] += c * d_q(v, j, OverlapColumns::gap + d);
         }

@@ -60,15 +60,20 @@ namespace Touchstone
     /** The integral of the displacement of the slave relative to the master with psi'_k, area times
      * length, and this displacement at the node, length. */
     dealii::Tensor<1, dim> moved, own_moved;
-    /** Integrals of the distance of the slave surface from its facets with N~_k, and of N~_k; area
-     * times length, area. */
-    double arch = 0., shape_area = 0.;
+    /** Integrals with N~_k of the distance of the slave surface from its facets, of
+     * OverlapSample::inclined, and of 1; area times length, area, area. */
+    double arch = 0., inclined = 0., shape_area = 0.;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
      * there, length. */
     double least = 0.;
     /** OverlapIntegrals::own, ::beside and ::length: with them the gap at the node is own - length
      * * beside; length, no unit, length. */
     double own = 0., beside = 1., length = 0.;
+
+    /** @brief r of equation (6): how much the node has lost, given away and because the surfaces
+     * are inclined to each other, over what is left. */
+    double
+    loss() const;
 
     /** @brief Whether enough of the node is covered for a row.
      * @param whole Tributary area. */
@@ -79,7 +84,8 @@ namespace Touchstone
   /** @brief Derivatives of CoverSums with respect to the position of one node. */
   struct CoverSumsDerivative
   {
-    dealii::Tensor<1, dim> area, kept, given, reference, least, own, beside, arch, shape_area;
+    dealii::Tensor<1, dim> area, kept, given, reference, least, own, beside, arch, inclined,
+      shape_area;
     /** [i][e]: of component i with respect to component e of the position. */
     dealii::Tensor<2, dim> gap, normal, moved, own_moved;
     /** Of GapCorrection::face. */
@@ -96,15 +102,15 @@ namespace Touchstone
    * a row is that of its node if it is higher; where they are pressed flat on any face it is the
    * mean. Means with a weight that is positive tell them apart. A node that is not covered has the
    * mean. Besides, a row is not less open than surfaces that are clearly apart, and the gap of a
-   * node that gives away area grows with the part given, so that its row opens before its area
-   * vanishes and forces change smoothly.
+   * node that loses area grows with the part lost (CoverSums::loss()), so that its row opens before
+   * its area vanishes and forces change smoothly.
    */
   struct GapCorrection
   {
     double value, by_mean, by_least, by_own, by_beside, by_kept, by_given, by_area;
     /** By how far displacements have moved the node along the normal from the mean, and by the
-     * mean distance of the slave surface from its facets. */
-    double by_moved, by_arch;
+     * means of the distance of the slave surface from its facets and of OverlapSample::inclined. */
+    double by_moved, by_arch, by_inclined;
     /** The face that decides, or null if none does, and derivatives by what it contributes: its
      * mean gaps along the normal with both weights, and own, beside, least and area of its
      * FaceShare. */
@@ -160,8 +166,7 @@ namespace Touchstone
     {
       return correction.by_beside != 0.;
     }
-    /** @brief Whether derivatives of these are used: CoverSums::moved, ::own_moved, ::arch and
-     * ::shape_area. */
+    /** @brief Whether derivatives of these are used: CoverSums::moved, ::own_moved and ::arch. */
     bool
     needs_shape() const
     {
@@ -194,7 +199,9 @@ namespace Touchstone
     /** Displacement at the node, the same less the mean, and the mean arch; length. */
     dealii::Tensor<1, dim> own_moved, moved;
     double                 arch;
-    GapCorrection          correction;
+    /** The mean of OverlapSample::inclined, no unit. */
+    double        inclined;
+    GapCorrection correction;
   };
 } // namespace Touchstone
 

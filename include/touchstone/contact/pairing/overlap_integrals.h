@@ -19,17 +19,18 @@ namespace Touchstone
   namespace OverlapColumns
   {
     constexpr unsigned int area = 0, gap = 1, normal = gap + dim, moved = normal + dim,
-                           arch = moved + dim, master = arch + 1;
+                           arch = moved + dim, inclined = arch + 1, master = inclined + 1;
   }
 
   /**
    * @brief The integrals over the overlap of a slave face with one master face from which the rows
    * of the slave nodes are made (doc/theory.md 3 and 4, "Derivatives of rows"):
    *
-   *   M_jk = int N_j N_k ,   Q_jc = int N_j q_c ,   q = (1, x_s - x_m, n, u_s - u_m, b, N_1, ...,
-   * N_n) ,
+   *   M_jk = int N_j N_k ,   Q_jc = int N_j q_c ,   q = (1, x_s - x_m, n, u_s - u_m, b, 1 - S,
+   * N_1, ..., N_n) ,
    *
-   * N_j the slave shapes, N_1, ... those of the master face, and b OverlapSample::arch.
+   * N_j the slave shapes, N_1, ... those of the master face, b
+   * OverlapSample::arch and 1 - S OverlapSample::inclined.
    * @tparam n Nodes of a face, 4 or 9.
    * @tparam Number double, or PositionFad<n>: the derivatives of the integrals come with them.
    */
@@ -40,7 +41,7 @@ namespace Touchstone
 
     /** M, area; only k <= j is set. */
     std::array<std::array<Number, n>, n> mass{};
-    /** Q: area, area times length for gap, displacement and arch. */
+    /** Q: area; area times length for gap, displacement and arch. */
     std::array<std::array<Number, n_columns>, n> q{};
     /** The smallest gap along the normal at any point or corner of the overlap; length. */
     Number least = std::numeric_limits<double>::max();
@@ -100,6 +101,8 @@ namespace Touchstone
               q[j][OverlapColumns::moved + d] += weight * sample.moved[d];
             }
           q[j][OverlapColumns::arch] += weight * sample.arch;
+          if (value_of(sample.inclined) > 0.)
+            q[j][OverlapColumns::inclined] += weight * sample.inclined;
           for (unsigned int m = 0; m < n; ++m)
             q[j][OverlapColumns::master + m] += weight * sample.master_shape[m];
         }

@@ -32,6 +32,8 @@ namespace Touchstone
     /** Area of the slave face, as far as the inclination of the surfaces lets it count
      * (FacingPart); zero at corners of the overlap. */
     Number weight;
+    /** By how much less than all it lets count, 1 - S of FacingPart; no unit. */
+    Number inclined;
     /** Shape functions N_j of the slave face and N_m of the master face. */
     std::array<Number, n> slave_shape, master_shape;
     /** x_s - x_m, length, and the unit outward normal of the master surface at x_m. */

@@ -70,9 +70,9 @@ namespace Touchstone
       double            area, reference;
       /** Of the integrals with psi'_k, by columns. */
       std::vector<double> integrals;
-      /** Of the integrals of gap and arch with N~_k. */
+      /** Of the integrals of gap, arch and OverlapSample::inclined with N~_k. */
       dealii::Tensor<1, dim> shape_gap;
-      double                 arch;
+      double                 arch, inclined;
     };
 
     /** @brief Evaluate it for component @p e of node @p i. */
