@@ -43,21 +43,13 @@ namespace Touchstone
 
 
 
-    bool
-    can_be_exchanged(const ContactPairParameters &pair)
-    {
-      return pair.obstacle.empty() && !pair.of_one_body();
-    }
-
-
-
     std::string
     between_nodes(const ContactPairParameters &pair, const MissedContact::Place &place)
     {
       return text(pair, place) +
              ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
              "contact: refine the slave surface" +
-             (can_be_exchanged(pair) ? ", or exchange slave and master" : "");
+             (pair.can_be_exchanged() ? ", or exchange slave and master" : "");
     }
 
 

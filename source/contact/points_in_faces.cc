@@ -275,6 +275,22 @@ namespace Touchstone
       points = result;
       return changed;
     }
+
+
+
+    /** How many points of a pair carry a force. Collective. */
+    unsigned int
+    n_in_contact(const Contact &contact, const ContactPair &pair)
+    {
+      if (!pair.takes_points() || pair.points().empty())
+        return 0;
+      unsigned int n = 0;
+      for (const MaterialPoint &point : pair.points())
+        for (const ContactRow &row : pair.rows())
+          n += row.between_nodes && row.slave == point.nodes[point.slave] &&
+               contact.state(row).active() && contact.state(row).lambda > 0.;
+      return Utilities::MPI::sum(n, contact.communicator());
+    }
   } // namespace
 
 
@@ -322,11 +338,26 @@ namespace Touchstone
   {
     unsigned int n = 0;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ContactPair &pair = contact.pair(p); pair.takes_points())
-        for (const MaterialPoint &point : pair.points())
-          for (const ContactRow &row : pair.rows())
-            n += row.between_nodes && row.slave == point.nodes[point.slave] &&
-                 contact.state(row).active() && contact.state(row).lambda > 0.;
-    return Utilities::MPI::sum(n, contact.communicator());
+      n += n_in_contact(contact, contact.pair(p));
+    return n;
+  }
+
+
+
+  std::vector<std::string>
+  warnings_of_points(const Contact &contact)
+  {
+    std::vector<std::string> result;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (n_in_contact(contact, contact.pair(p)) > 0)
+        {
+          const ContactPairParameters &pair = contact.pair(p).parameters();
+          result.push_back(
+            "contact pair '" + pair.name +
+            "': what touches is narrower than the slave faces and carried by points inside these: the "
+            "force depends on the mesh and may be too large by a factor. Refine the slave surface" +
+            (pair.can_be_exchanged() ? ", or exchange slave and master" : ""));
+        }
+    return result;
   }
 } // namespace Touchstone

@@ -250,6 +250,8 @@ namespace Touchstone
     StepFindings result;
     result.remarks  = remarks();
     result.warnings = check_loose_bodies();
+    for (std::string &text : warnings_of_points(contact))
+      result.warnings.push_back(std::move(text));
     check_contact();
     result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;

@@ -99,7 +99,10 @@ for name, settings in {"points": {}, "averaged": {PAIR + "Pairing": "averaged"},
                                      PAIR + "Master body": "low",
                                      PAIR + "Master boundaries": "top"}}.items():
     result = run(name, "rib.prm", settings)
-    check(not result.summary["warnings"], f"{name}: {result.summary['warnings']}")
+    # Points carry it, but what it is depends on the mesh.
+    words = result.summary["warnings"]
+    check(["narrower than the slave faces" in text for text in words] == [True] * (name == "points"),
+          f"{name}: {words}")
 
 # Before it touches: nothing.
 apart = run("apart", tests / "small_obstacle_in_face.prm", {"Load stepping/End time": 0.04})

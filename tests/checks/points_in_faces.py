@@ -105,7 +105,9 @@ for name, text, points in (("ball", BALL, 1), ("tube", TUBE, 1), ("row", ROW, 5)
           f"{name}: not {points} points")
     size = max(map(abs, one.force("c")))
     below(f"{name}: force across", abs(one.force("c")[1]) / size if points == 5 else 0., 1e-9)
-    check(not one.summary["warnings"], f"{name}: {one.summary['warnings']}")
+    # Refined by eight, the ball has a force of 2.1 instead of 7.1: the run must say so, once.
+    words = one.summary["warnings"]
+    check(len(words) == 1 and "narrower than the slave faces" in words[0], f"{name}: {words}")
     reaction = one.reaction("low", "bottom")
     below(f"{name}: balance", max(abs(f + r) for f, r in zip(one.force("c"), reaction)) /
           max(map(abs, reaction)), 1e-9)

@@ -111,6 +111,13 @@ namespace Touchstone
       return !tied() && obstacle.empty() && slave_body == master_body;
     }
 
+    /** @brief Whether slave and master can be exchanged: two surfaces of bodies that are meshes. */
+    bool
+    can_be_exchanged() const
+    {
+      return obstacle.empty() && !of_one_body();
+    }
+
     /** @param values Of this section: pairing and behaviour decide on other keys. */
     void
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);

@@ -4,6 +4,7 @@
 #define touchstone_contact_points_in_faces_h
 
 #include <string>
+#include <vector>
 
 namespace Touchstone
 {
@@ -26,6 +27,11 @@ namespace Touchstone
   /** @brief How many such points carry a force. Collective. */
   unsigned int
   n_points_in_contact(const Contact &contact);
+
+  /** @brief A warning for each pair whose contact such points carry: it is narrower than the slave
+   * faces. Collective. */
+  std::vector<std::string>
+  warnings_of_points(const Contact &contact);
 } // namespace Touchstone
 
 #endif
