@@ -93,15 +93,23 @@ namespace Touchstone
 
 
   std::vector<MissedContact::Overlap>
-  MissedContact::overlaps() const
+  MissedContact::overlaps(const bool idle) const
   {
     std::vector<Face> slaves;
     for (const Face &face : pair.slave().owned_faces())
-      // Where a node or a point of the face carries a force, its row resists the overlap already.
-      if (carries_nothing(face))
+      if (carries_nothing(face) == idle)
         slaves.push_back(present(face));
-    std::vector<Overlap> result = deepest_first(
-      pair.master() ? within_faces(slaves, master_faces(slaves)) : obstacle_within(slaves));
+    return deepest_first(pair.master() ? within_faces(slaves, master_faces(slaves))
+                                       : obstacle_within(slaves));
+  }
+
+
+
+  std::vector<MissedContact::Overlap>
+  MissedContact::missed() const
+  {
+    // Where a node or a point of the face carries a force, its row resists the overlap already.
+    std::vector<Overlap> result = overlaps(/*idle=*/true);
     // Pairings may measure gaps to other surfaces than facets: the row of a point there knows.
     for (const MaterialPoint &point : open_points())
       result.erase(std::remove_if(result.begin(),
@@ -153,11 +161,24 @@ namespace Touchstone
 
 
 
+  std::vector<MissedContact::Place>
+  MissedContact::beside_nodes() const
+  {
+    std::vector<Place> places;
+    for (const Overlap &overlap : overlaps(/*idle=*/false))
+      // An obstacle behind the face does not touch it.
+      if (overlap.place.area > 0. && (pair.master() || !overlap.in_doubt))
+        places.push_back(overlap.place);
+    return places;
+  }
+
+
+
   MissedContact::Place
   MissedContact::deepest() const
   {
     std::vector<Place> places;
-    for (const Overlap &overlap : overlaps())
+    for (const Overlap &overlap : missed())
       places.push_back(overlap.place);
     return first_of(places);
   }
@@ -192,7 +213,7 @@ namespace Touchstone
   MissedContact::points() const
   {
     std::vector<MaterialPoint> result;
-    for (const Overlap &overlap : overlaps())
+    for (const Overlap &overlap : missed())
       // An obstacle behind a face is no overlap of the surface.
       if (overlap.point.n > 0)
         result.push_back(overlap.point);

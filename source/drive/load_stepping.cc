@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/interruption.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/narrow_contact.h>
 #include <touchstone/contact/turned_surfaces.h>
 #include <touchstone/contact/unheld_edges.h>
 #include <touchstone/drive/simulation.h>
@@ -105,7 +106,7 @@ namespace Touchstone
       }
     // In explicit runs bodies may hit each other's edges at any moment.
     if (problem->cycle_counts() == nullptr)
-      for (const auto check : {unheld_edges, turned_surfaces})
+      for (const auto check : {unheld_edges, turned_surfaces, narrow_contact})
         for (const std::string &text : check(problem->state().contact))
           warnings.add(text);
     write_last_checkpoint(at);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/bodies_in_obstacles.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/overlapping_bodies.h>
@@ -56,6 +57,8 @@ namespace Touchstone
       const StepState state = problem->state();
       for (const std::string &text :
            overlapping_bodies(state.contact, state.ghosted_displacement()))
+        warnings.add(text);
+      for (const std::string &text : bodies_in_obstacles(state.contact))
         warnings.add(text);
     }
     finish_summary();

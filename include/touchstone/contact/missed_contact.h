@@ -51,6 +51,11 @@ namespace Touchstone
     Place
     deepest() const;
 
+    /** @brief The deepest overlap, more than facets may be off, of each slave face that carries a
+     * force at a node; the same on all ranks. Collective. */
+    std::vector<Place>
+    beside_nodes() const;
+
     /** @brief Part of the area that should carry the pair of which the overlaps of @p place are: 1
      * where nothing carries. Collective. */
     double
@@ -107,9 +112,14 @@ namespace Touchstone
     /** A face in its present position, also with small sliding, whose surfaces are not moved. */
     Face
     present(const Face &face) const;
-    /** In idle slave faces of any rank, the deepest first. Collective. */
+    /** In the slave faces of any rank that are idle, or in the others; the deepest first.
+     * Collective. */
     std::vector<Overlap>
-    overlaps() const;
+    overlaps(bool idle) const;
+    /** In idle faces, but for those where the row of a point knows that there is none. Collective.
+     */
+    std::vector<Overlap>
+    missed() const;
     /** Points whose row says that nothing touches there. Collective. */
     std::vector<MaterialPoint>
     open_points() const;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_narrow_contact_h
+#define touchstone_contact_narrow_contact_h
+
+#include <touchstone/contact/contact.h>
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Pairs whose contact is so narrow that their slave faces do not resolve it, in words with
+   * place and remedy (doc/theory.md 4.1).
+   *
+   * The surfaces overlap between slave nodes that carry a force. Let the overlap of face f be d_f,
+   * and the stiffness of its material behind it E A_f/h_f. Where the forces sum d_f E A_f/h_f that
+   * would take the overlaps away are larger than those that the rows carry, the latter say little
+   * of the force.
+   *
+   * Collective.
+   */
+  std::vector<std::string>
+  narrow_contact(const Contact &contact);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/bodies_in_obstacles.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/overlap_order.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+// Faces of bodies within obstacles that no pair names: rows know nothing of them.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The boundaries of the slave body that any pair of it with the same obstacle names. */
+    std::set<types::boundary_id>
+    named_boundaries(const Contact &contact, const ContactPair &pair)
+    {
+      std::set<types::boundary_id> result;
+      for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+        if (const ContactPair &other = contact.pair(p);
+            other.parameters().obstacle == pair.parameters().obstacle &&
+            other.slave_body() == pair.slave_body())
+          result.insert(other.slave().boundaries().begin(), other.slave().boundaries().end());
+      return result;
+    }
+
+
+
+    /** The centre of some corners of a cell after the four of a face. */
+    std::array<Point<dim>, 5>
+    points_of_face(const std::array<Point<dim>, 8> &corners, const unsigned int f)
+    {
+      std::array<Point<dim>, 5> result;
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          result[k] = corners[GeometryInfo<dim>::face_to_cell_vertices(f, k)];
+          result[4] += 0.25 * result[k];
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  std::string
+  BodyInObstacle::text(const ContactPair &pair) const
+  {
+    const ContactPairParameters &names = pair.parameters();
+    char                         where[120];
+    std::snprintf(where,
+                  sizeof(where),
+                  "', by %.3g at (%.3g, %.3g, %.3g)",
+                  depth,
+                  x[0] + 0.,
+                  x[1] + 0.,
+                  x[2] + 0.);
+    return "contact pair '" + names.name + "': body '" + names.slave_body +
+           "' reaches into the obstacle '" + names.obstacle + where +
+           ", with a face that the pair does not name. Name all that may touch it in "
+           "'Slave boundaries'";
+  }
+
+
+
+  BodyInObstacle
+  body_in_obstacle(const Contact &contact, const ContactPair &pair)
+  {
+    if (pair.master())
+      return {};
+    const auto                  named = named_boundaries(contact, pair);
+    const Vector                zero  = contact.with_ghosts(contact.solid_model().zero_vector());
+    std::vector<BodyInObstacle> found;
+    for (const auto &cell : contact.solid_model().dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->material_id() == pair.slave_body() &&
+          cell->at_boundary())
+        {
+          const double size = cell->diameter() / std::sqrt(double(dim));
+          const auto   now  = deformed_vertices(cell, contact.ghosted_displacement()),
+                     before = deformed_vertices(cell, zero);
+          for (const unsigned int f : cell->face_indices())
+            {
+              if (!cell->at_boundary(f) || named.count(cell->face(f)->boundary_id()) > 0)
+                continue;
+              const auto x = points_of_face(now, f), start = points_of_face(before, f);
+              for (unsigned int k = 0; k < x.size(); ++k)
+                {
+                  const double depth = -pair.pairing().distance(x[k], contact.time());
+                  // What has been so from the start, or half as deep, is as the scene has it.
+                  if (depth > Tolerances::deep_in_body * size &&
+                      -pair.pairing().distance(start[k], 0.) < 0.5 * depth)
+                    found.push_back({depth, size, x[k]});
+                }
+            }
+        }
+    std::vector<BodyInObstacle> all = gather_all(found, contact.communicator());
+    sort_by_depth(all, [](const BodyInObstacle &one) { return one; });
+    return all.empty() ? BodyInObstacle() : all.front();
+  }
+
+
+
+  std::vector<std::string>
+  bodies_in_obstacles(const Contact &contact)
+  {
+    std::vector<std::string> result;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const BodyInObstacle found = body_in_obstacle(contact, contact.pair(p)); found.depth > 0.)
+        result.push_back(found.text(contact.pair(p)));
+    return result;
+  }
+} // namespace Touchstone

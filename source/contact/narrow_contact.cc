@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/narrow_contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdio>
+
+// Contact that is narrower than the slave faces, beside slave nodes that carry a force.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Young's modulus of the softer body, and the normal force of all rows of a pair. Collective.
+     */
+    std::pair<double, double>
+    modulus_and_force(const Contact &contact, const ContactPair &pair)
+    {
+      double                          modulus = 0., force = 0.;
+      const std::vector<SurfaceNode> &nodes = pair.slave().owned_nodes();
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        modulus = std::max(modulus, pair.rows()[k].stiffness * nodes[k].size / nodes[k].area);
+      for (const ContactRow &row : pair.rows())
+        if (const RowState &state = contact.state(row); state.active())
+          force += std::max(0., state.lambda);
+      return {Utilities::MPI::max(modulus, contact.communicator()),
+              Utilities::MPI::sum(force, contact.communicator())};
+    }
+
+
+
+    std::string
+    warning(const ContactPairParameters &pair, const MissedContact::Place &deepest)
+    {
+      char text[120];
+      std::snprintf(text,
+                    sizeof(text),
+                    "by up to %.3g at (%.3g, %.3g, %.3g)",
+                    deepest.depth,
+                    deepest.x[0],
+                    deepest.x[1],
+                    deepest.x[2]);
+      return "contact pair '" + pair.name +
+             "': what touches is narrower than the slave faces. Between slave nodes that carry the "
+             "force the surfaces overlap, " +
+             text + ", so that the force may be too small by a factor. Refine the slave surface" +
+             (pair.can_be_exchanged() ? ", or exchange slave and master" : "");
+    }
+  } // namespace
+
+
+
+  std::vector<std::string>
+  narrow_contact(const Contact &contact)
+  {
+    std::vector<std::string> result;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair = contact.pair(p);
+        // Points inside faces have a warning of their own in the step in which they carry.
+        if (pair.tied() || pair.parameters().of_one_body() ||
+            (pair.takes_points() && !pair.points().empty()))
+          continue;
+        const Vector forces = normal_forces(contact, pair);
+        const auto   places = MissedContact(contact, pair, forces).beside_nodes();
+        if (places.empty())
+          continue;
+        const auto [modulus, force] = modulus_and_force(contact, pair);
+        double needed               = 0.;
+        for (const MissedContact::Place &place : places)
+          needed += modulus * place.area / place.size * place.depth;
+        if (needed > force)
+          result.push_back(warning(pair.parameters(), places.front()));
+      }
+    return result;
+  }
+} // namespace Touchstone
