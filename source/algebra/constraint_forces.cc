@@ -19,8 +19,7 @@ namespace Touchstone
   // Sweeps repeat until nothing changes: a force also acts on the dofs of its stencil, and if one
   // of these is eliminated by another condition, that one gets its share in the next sweep.
   std::vector<double>
-  ConstraintGraph::forces(const Vector                        &residual,
-                          const std::function<void(Vector &)> &condense) const
+  ConstraintGraph::forces(Vector rest, const std::function<void(Vector &)> &condense) const
   {
     // r_p + sum_k mu_k F_kp = 0 for the eliminated dofs p (doc/theory.md, section 7) is solved by
     // substitution. Where conditions refer to dofs that others eliminate in chains, that ends after
@@ -29,7 +28,6 @@ namespace Touchstone
     constexpr unsigned int longest   = 1000;
     constexpr double       round_off = 1e-14;
 
-    Vector rest(residual);
     condense(rest);
     std::map<Index, Tensor<1, dim>> by_pivot;
     double                          largest = 0.;
@@ -63,7 +61,7 @@ namespace Touchstone
                   values.push_back(force * coefficient);
                 }
             }
-        const MPI_Comm communicator = residual.get_mpi_communicator();
+        const MPI_Comm communicator = rest.get_mpi_communicator();
         if (Utilities::MPI::max(change, communicator) <=
             round_off * Utilities::MPI::max(largest, communicator))
           break;

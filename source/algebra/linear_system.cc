@@ -2,6 +2,8 @@
 
 #include <touchstone/algebra/linear_system.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // Values of the parts of a linear system without assembling it: linear forms (elongations, gaps)
@@ -67,15 +69,17 @@ namespace Touchstone
   Vector
   LinearSystem::residual(const Vector &displacement, const std::vector<double> &extra) const
   {
-    Vector result(rhs), part(rhs);
-    stiffness->vmult(part, displacement);
-    result -= part;
+    Vector result(rhs);
+    stiffness->vmult(result, displacement);
+    result.sadd(-1., rhs);
     if (diagonal_shift.size() > 0)
       {
-        part = displacement;
+        Vector part(displacement);
         part.scale(diagonal_shift);
         result -= part;
       }
+    if (Utilities::MPI::max(static_cast<int>(!terms.empty()), rhs.get_mpi_communicator()) == 0)
+      return result;
 
     const Vector        ghosted = with_ghosts(displacement, [&](const auto &visit) {
       for (const RankOneTerm &term : terms)

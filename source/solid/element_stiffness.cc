@@ -47,14 +47,18 @@ namespace Touchstone
 
 
 
+  // What is to be made is no argument: of a function with constant arguments GCC makes a copy, of
+  // baseline instructions, which all versions of compute() call instead of inlining it.
   template <unsigned int n_cells>
+  template <bool modes_only>
   inline __attribute__((always_inline)) void
-  ElementStiffness<n_cells>::compute_here(const unsigned int first)
+  ElementStiffness<n_cells>::compute_here()
   {
     using Values                 = typename Number<n_cells>::type;
     const Values *const weighted = reinterpret_cast<const Values *>(this->weighted.data());
     const Values *const mean     = reinterpret_cast<const Values *>(this->mean.data());
     Values *const       matrix   = reinterpret_cast<Values *>(this->matrix.data());
+    const unsigned int  first    = modes_only ? n_kept : 0;
 
     // With G_ab = sum_q w grad N_a (x) grad N_b isotropic elasticity is K_ab = (kappa - 2/3 mu)
     // G_ab + mu G_ab^T + mu (tr G_ab) I: nine sums for each pair of nodes instead of a product
@@ -127,7 +131,7 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   ElementStiffness<1>::compute()
   {
-    compute_here(0);
+    compute_here<false>();
     mirror();
   }
 
@@ -137,7 +141,7 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   ElementStiffness<8>::compute()
   {
-    compute_here(0);
+    compute_here<false>();
     mirror();
   }
 
@@ -147,7 +151,7 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   ElementStiffness<1>::compute_modes()
   {
-    compute_here(n_kept);
+    compute_here<true>();
   }
 
 

@@ -221,7 +221,7 @@ namespace Touchstone
      * Collective.
      */
     std::vector<double>
-    forces(const Vector &residual, const std::function<void(Vector &)> &condense) const;
+    forces(Vector residual, const std::function<void(Vector &)> &condense) const;
 
     /** @brief Whether all conditions treated in this way are symmetric: then both
      * kinds of constraints, or changes of basis, are the same. Of this rank only. */

@@ -84,9 +84,11 @@ namespace Touchstone
 
     /** @name To be called from functions with versions for several processors */
     /** @{ */
-    /** The columns from @p first on, on and above the diagonal, with the modes eliminated. */
+    /** What is on and above the diagonal, of the columns of all unknowns or of the modes, with the
+     * modes eliminated. */
+    template <bool modes_only>
     void
-    compute_here(unsigned int first);
+    compute_here();
 
     /** Fill what is below the diagonal, over the unknowns of the nodes. */
     void
