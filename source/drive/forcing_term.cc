@@ -3,7 +3,6 @@
 #include <touchstone/drive/forcing_term.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Touchstone
 {
@@ -41,19 +40,12 @@ namespace Touchstone
       next *= friction ? 1e-3 : 1e-2;
     else
       {
-        // Frozen increments neglect how normals change, so that Newton's method converges linearly
+        // Symmetric systems neglect how normals change, so that Newton's method converges linearly
         // and accuracy beyond its contraction rate is wasted (Eisenstat and Walker 1996). The
         // factor 0.03 leaves a margin: with a tenth, an additional solve is needed now and then.
-        // Where not even a better rate would end the step, two solves at least are left, and each
-        // goes half of the way.
         double left = 0.;
         if (last_residual > 0. && leaves_out)
-          {
-            const double rate = state.residual / last_residual;
-            left              = 0.03 * rate;
-            if (0.3 * rate * state.residual > residual_tolerance)
-              left = std::max(left, 0.3 * std::sqrt(residual_tolerance / state.residual));
-          }
+          left = 0.03 * state.residual / last_residual;
         if (state.residual > 0. && last >= 1e-2 * usual)
           next = std::min(last, std::max(usual, 0.1));
         next = std::max(next, std::min(left, 1e-2));

@@ -29,7 +29,7 @@ namespace Touchstone
     // Uzawa's outer iteration augments forces once they are in balance.
     if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
       contact.enforcement().balanced(contact);
-    forcing_term.update(state, !system->consistent(forcing_term.slow()) && solid.linear());
+    forcing_term.update(state, system->linear_solver().symmetric_only() && solid.linear());
     return state;
   }
 

@@ -93,7 +93,7 @@ namespace Touchstone
   StepSystem::assemble(const State &state)
   {
     begin(state);
-    if (consistent(state.slow))
+    if (consistent(state))
       parts.contact.differentiate();
     Enforcement &enforcement = parts.contact.enforcement();
     // Friction needs to know which conditions of contact were accepted.
@@ -311,7 +311,7 @@ namespace Touchstone
         distance = std::clamp(1.01 * distance, 1e-3 * size, size);
         smallest = before_contact;
       }
-    else if (consistent(state.slow))
+    else if (consistent(state))
       {
         distance = 1e-2 * size;
         smallest = std::clamp(in_contact * std::sqrt(state.residual), before_contact, in_contact);

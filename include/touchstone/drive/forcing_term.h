@@ -49,7 +49,7 @@ namespace Touchstone
     }
 
     /** @brief A state has been evaluated.
-     * @param leaves_out The linear system neglects part of the tangent: that of frozen normals. */
+     * @param leaves_out The linear system neglects part of the tangent, as symmetric ones do. */
     void
     update(const NewtonState &state, bool leaves_out);
 

@@ -100,14 +100,6 @@ namespace Touchstone
              parts.scene.contact.linearisation != ContactParameters::Linearisation::frozen;
     }
 
-    /** @brief Whether contact is linearised consistently; if not, increments leave out how normals
-     * and contact points change. @param slow ForcingTerm::slow(). */
-    bool
-    consistent(const bool slow) const
-    {
-      return begins_consistent() || (slow && may_change_linearisation());
-    }
-
     /** @brief Conditions accepted so far. */
     const ConstraintGraph &
     conditions() const
@@ -176,6 +168,12 @@ namespace Touchstone
     /** Whether contact is linearised consistently from the first iteration of a step on. */
     bool
     begins_consistent() const;
+    /** Whether contact is linearised consistently here. */
+    bool
+    consistent(const State &state) const
+    {
+      return begins_consistent() || (state.slow && may_change_linearisation());
+    }
     void
     add_load_stiffness(const State &state);
     /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
