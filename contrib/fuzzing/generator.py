@@ -8,6 +8,10 @@ from . import fits, stacks
 
 KINDS = (stacks.two,) * 6 + (stacks.row, stacks.corner, stacks.quarter, stacks.quarter,
                              fits.fit, fits.fit, fits.fit, fits.rigid, fits.between, fits.bore)
+# Kinds with four pairs came later, with a random stream of their own: other scenes of a seed are
+# those that they were before.
+FOUR_PAIRS = (stacks.row_of_four, stacks.table)
+SHARE_OF_FOUR_PAIRS = 0.05
 # Lengths and stresses: N, mm, MPa as they are; SI; inch and psi; grams.
 UNITS = ((1.0, 1.0), (1.0, 1.0), (1e-3, 1e6), (1 / 25.4, 145.0), (1e3, 1e-6), (1e-6, 1e9))
 
@@ -20,8 +24,11 @@ def without_smoothing(pair):
 
 def scene(seed, index):
     """The scene @p index of a campaign."""
-    rng = random.Random(f"{seed}/{index}")
-    result = rng.choice(KINDS)(rng)
+    rng, kinds = random.Random(f"{seed}/{index}"), KINDS
+    four = random.Random(f"{seed}/{index}/four pairs")
+    if four.random() < SHARE_OF_FOUR_PAIRS:
+        rng, kinds = four, FOUR_PAIRS
+    result = rng.choice(kinds)(rng)
     if rng.random() < 0.1:
         result = dataclasses.replace(result, settings=(("Discretisation/Degree", "2"),),
                                      pairs=tuple(map(without_smoothing, result.pairs)))

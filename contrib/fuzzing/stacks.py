@@ -73,9 +73,9 @@ def two(rng):
                  clearance=_clearance(low, top, bore))
 
 
-def row(rng):
-    """Two or three bodies beside each other on a common base."""
-    n = rng.choice((2, 2, 3))
+def row(rng, numbers=(2, 2, 3)):
+    """Bodies beside each other on a common base, as many as one of @p numbers says."""
+    n = rng.choice(numbers)
     h, width = rng.uniform(0.6, 1.2), 1.2 * n
     _, stuff = material(rng)
     base = parts.Box((-width / 2, -0.7, -h), (width / 2, 0.7, 0.0), (3 * n, 3, 2),
@@ -94,6 +94,37 @@ def row(rng):
     # Phases that a motion does not have it rests in: formulas of time say so.
     return Scene(f"{n} bodies on one base", tuple(bodies), (), tuple(pairs), end,
                  end * rng.randint(2, 3))
+
+
+def row_of_four(rng):
+    """Four bodies beside each other on a common base."""
+    return row(rng, (4,))
+
+
+def table(rng):
+    """A plate on two legs that stand on a base, and keep their place by one of their sides."""
+    strain, stuff = material(rng)
+    h, low = rng.uniform(0.5, 1.0), rng.uniform(0.3, 0.8)
+    base = parts.Box((-1.2, -0.7, -low), (1.2, 0.7, 0.0), (rng.randint(4, 7), 3, 2),
+                     parts.grading(rng))
+    bodies = [Body("base", base, *stuff, fixed=("bottom",))]
+    held, pairs = Condition((Formula(0.0), Formula(0.0), None)), []
+    for name, side, x in (("left leg", "left", -1.0), ("right leg", "right", 0.4)):
+        width = rng.uniform(0.4, 0.6)
+        leg = parts.Box((x, -0.3, 0.0), (x + width, 0.3, h), parts.cells(rng, 2, 4),
+                        parts.grading(rng))
+        bodies.append(Body(name, leg, *material(rng, stuff[1]["Young modulus"])[1],
+                           conditions=((side, held),)))
+        pairs.append(_pair(rng, f"foot of {name}", name, ("bottom",), "base", ("top",)))
+    plate = parts.Box((-1.1, -0.5, h), (1.1, 0.5, h + 0.3), (rng.randint(4, 7), 3, 2))
+    motion = Motion(rng, KINDS, strain * (h + 0.3), 0.1)
+    top = parts.Part(plate, ("bottom",), ("top",), h + 0.3, 0.5, False, True)
+    bodies.append(_driven(rng, "plate", top, motion, material(rng, stuff[1]["Young modulus"])[1],
+                          rng.random() < 0.4))
+    for name in ("left leg", "right leg"):
+        pairs.append(_pair(rng, f"head of {name}", name, ("top",), "plate", ("bottom",)))
+    return Scene("A plate on two legs, " + motion.kind, tuple(bodies), (), tuple(pairs),
+                 motion.end_time, motion.end_time * rng.randint(2, 4))
 
 
 def corner(rng):

@@ -226,7 +226,7 @@ namespace Touchstone
         // The checkpoint of a failed run has the nominal step size: with other parameters (solver,
         // tolerances) the run may resume from there.
         stop(reason + " (step " + std::to_string(at.step) + " at time " + std::to_string(next) +
-               ", cut " + std::to_string(at.cuts) + " times)",
+               ", cut " + std::to_string(at.cuts) + " times)" + lost_equilibrium(failure),
              {at.time, scene.load_stepping.nominal_step(at.time), at.step, 0});
         return false;
       }
@@ -234,6 +234,22 @@ namespace Touchstone
     at.size *= 0.5;
     progress.cut_step(reason, at.size);
     return true;
+  }
+
+
+
+  std::string
+  Simulation::lost_equilibrium(const NonConvergence &failure) const
+  {
+    // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
+    // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md). Failures
+    // for which a shorter step is no remedy name their cause themselves.
+    if (scene.time_integration.dynamic() || summary.steps == 0 || !failure.shorter_step_may_help())
+      return "";
+    return ". Where all steps before went well there may be no static equilibrium to go on with, "
+           "because a body starts to slide as a whole, snaps or buckles: with inertia "
+           "('Time integration/Scheme = newmark') the run goes on, and what a load makes slide has an "
+           "equilibrium under a prescribed displacement";
   }
 
 

@@ -289,12 +289,6 @@ namespace Touchstone
         log.line("The run did not converge: " + summary.failure);
         log.line("The last converged state is in " + folder.path("solution.pvd") + ". " +
                  problem->advice());
-        // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
-        // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md).
-        if (!scene.time_integration.dynamic() && summary.steps > 0)
-          log.line("Steps that are cut again and again where all went well before can mean that "
-                   "there is no equilibrium to go on with, because a body snaps or buckles: with "
-                   "inertia ('Time integration/Scheme') the run goes on.");
       }
     log.check();
     return summary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/step_problem.h>
+#include <touchstone/solid/bodies.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,14 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <vector>
 
-// Where a body with a nonlinear law is compressed most, and friction and ties that leave rows no
-// solution, for the messages of a step that fails.
+// Where a body with a nonlinear law is compressed most, how bodies move that only contact holds,
+// and friction and ties that leave rows no solution, for the messages of a step that fails.
 namespace Touchstone
 {
   using namespace dealii;
@@ -123,6 +125,42 @@ namespace Touchstone
     };
     const ExtremePoint found = smallest(scene, solid, u, resistance);
     return found.value < 0. ? found.place(scene) : "";
+  }
+
+
+
+  std::string
+  StepProblem::motion_of_loose_bodies() const
+  {
+    // What the conditions of one iterate leave free need not be how the body moves in the step:
+    // rows that stick in it may slide in the next.
+    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+    const std::size_t               n    = scene.bodies.size();
+    std::vector<double>             sums(n * (dim + 1), 0.);
+    for (std::size_t i = 0; i < body.size(); ++i)
+      {
+        double *const of_body = &sums[body[i] * (dim + 1)];
+        of_body[solid.owned.nth_index_in_set(i) % dim] += u.begin()[i] - committed_u.begin()[i];
+        of_body[dim] += 1. / dim;
+      }
+    Utilities::MPI::sum(sums, solid.communicator, sums);
+    std::string text;
+    for (const unsigned int b : system->loose_bodies())
+      {
+        const double *const of_body = &sums[b * (dim + 1)];
+        const auto *const   most =
+          std::max_element(of_body, of_body + dim, [](const double x, const double y) {
+            return std::abs(x) < std::abs(y);
+          });
+        char one[120];
+        std::snprintf(one,
+                      sizeof(one),
+                      "' has moved by %.2g in %c on average in this step",
+                      *most / of_body[dim],
+                      "xyz"[most - of_body]);
+        text += "; body '" + scene.bodies[b].name + one;
+      }
+    return text;
   }
 
 

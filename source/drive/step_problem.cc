@@ -264,7 +264,9 @@ namespace Touchstone
   {
     std::string suspicion;
     if (!system->stabilised().empty())
-      suspicion = "; held by contact alone, perhaps against no resistance: " + system->stabilised();
+      suspicion =
+        "; held by contact alone, perhaps against no resistance: " + system->stabilised() +
+        motion_of_loose_bodies();
     if (!solid.linear())
       if (const std::string place = unstable_place(); !place.empty())
         suspicion += "; the material of " + place +

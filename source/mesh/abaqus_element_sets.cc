@@ -67,10 +67,10 @@ namespace Touchstone
       if (const auto found = cell.find(element); found != cell.end())
         {
           faces->second.push_back(mesh.faces.size());
-          mesh.faces.emplace_back();
-          for (unsigned int v = 0; v < 4; ++v)
-            mesh.faces.back()[v] =
-              mesh.cells[found->second].vertices[face_vertices[face_name[1] - '1'][v]];
+          std::vector<unsigned int> vertices;
+          for (const unsigned int v : face_vertices[face_name[1] - '1'])
+            vertices.push_back(mesh.cells[found->second].vertices[v]);
+          mesh.add_face(vertices, mesh.cell_lines[found->second]);
         }
   }
 

@@ -40,9 +40,29 @@ namespace Touchstone
                         {"M3D8", 8},
                         {"M3D9", 9},
                         {"SFM3D4", 4},
-                        {"SFM3D8", 8}}))
+                        {"SFM3D8", 8},
+                        {"R3D4", 4},
+                        {"DS4", 4},
+                        {"DS8", 8},
+                        {"S9", 9}}))
+    , triangular(nodes_of(type,
+                          {{"S3", 3},
+                           {"S6", 6},
+                           {"STRI3", 3},
+                           {"STRI65", 6},
+                           {"CPS3", 3},
+                           {"CPS6", 6},
+                           {"CPE3", 3},
+                           {"CPE6", 6},
+                           {"M3D3", 3},
+                           {"M3D6", 6},
+                           {"SFM3D3", 3},
+                           {"SFM3D6", 6},
+                           {"R3D3", 3},
+                           {"DS3", 3},
+                           {"DS6", 6}}) > 0)
   {
-    if (of_cell + of_face > 0)
+    if (of_cell + of_face > 0 || triangular)
       return;
     // Solids of any kind and shape.
     for (const std::string solid :

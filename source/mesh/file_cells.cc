@@ -40,6 +40,7 @@ namespace Touchstone
                                                             : read_vtk(in, boundary_arrays);
         if (mesh.cells.empty())
           throw MeshFileError("The file has no hexahedra.");
+        mesh.check_faces();
         return mesh;
       }
     // A damaged number of entries can ask for any amount of memory; that is an error of the

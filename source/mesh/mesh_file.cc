@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
 
+#include <deal.II/base/geometry_info.h>
+
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace Touchstone
@@ -20,6 +24,15 @@ namespace Touchstone
     cells.push_back(cell);
     mid_nodes.emplace_back(v.begin() + 8, v.end());
     cell_lines.push_back(line);
+  }
+
+
+
+  void
+  MeshFile::add_face(const std::vector<unsigned int> &v, const unsigned int line)
+  {
+    faces.push_back({{v[0], v[1], v[2], v[3]}});
+    face_lines.push_back(line);
   }
 
 
@@ -125,4 +138,44 @@ namespace Touchstone
       for (unsigned int &c : volume.members)
         c = number[c];
   }
+
+
+
+  void
+  MeshFile::check_faces() const
+  {
+    std::vector<bool> of_cells(vertices.size(), false);
+    for (const CellData<3> &cell : cells)
+      for (const unsigned int v : cell.vertices)
+        of_cells[v] = true;
+    // The faces to be found, by their sorted vertices.
+    std::map<FaceVertices, unsigned int> missing;
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      if (std::all_of(faces[f].begin(), faces[f].end(), [&](const unsigned int v) {
+            return of_cells[v];
+          }))
+        {
+          FaceVertices face = faces[f];
+          std::sort(face.begin(), face.end());
+          missing.insert({face, f});
+        }
+    for (auto cell = cells.begin(); cell != cells.end() && !missing.empty(); ++cell)
+      for (const unsigned int f : GeometryInfo<3>::face_indices())
+        {
+          FaceVertices face;
+          for (unsigned int v = 0; v < 4; ++v)
+            face[v] = cell->vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+          std::sort(face.begin(), face.end());
+          missing.erase(face);
+        }
+    if (missing.empty())
+      return;
+    unsigned int first = numbers::invalid_unsigned_int;
+    for (const auto &[face, f] : missing)
+      first = std::min(first, f);
+    throw MeshFileError("The quadrilateral of " + place + " " + std::to_string(face_lines[first]) +
+                          " has the corners of hexahedra and is the face of none.",
+                        "mesh the surface together with its volume, or save the file without it");
+  }
+
 } // namespace Touchstone

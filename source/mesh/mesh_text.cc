@@ -54,6 +54,14 @@ namespace Touchstone
   }
 
 
+  MeshFileError
+  surface_error(const std::string &element)
+  {
+    return MeshFileError(element + " is no quadrilateral, and so not the face of a hexahedron.",
+                         "mesh the surface with quadrilaterals, or save the file without it");
+  }
+
+
 
   unsigned long
   whole_number(const std::string &word)

@@ -19,20 +19,20 @@ namespace Touchstone
     void
     add_boundary_of_points(MeshFile &mesh, const std::vector<double> &marks, MeshFile::Group &group)
     {
-      for (const CellData<3> &cell : mesh.cells)
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         for (const unsigned int f : GeometryInfo<3>::face_indices())
           {
-            std::array<unsigned int, 4> face;
-            bool                        marked = true;
+            std::vector<unsigned int> face(4);
+            bool                      marked = true;
             for (unsigned int v = 0; v < 4; ++v)
               {
-                face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+                face[v] = mesh.cells[c].vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
                 marked  = marked && marks[face[v]] != 0.;
               }
             if (marked)
               {
                 group.members.push_back(mesh.faces.size());
-                mesh.faces.push_back(face);
+                mesh.add_face(face, mesh.cell_lines[c]);
               }
           }
     }

@@ -187,6 +187,8 @@ namespace Touchstone
       const std::string   type = in_capitals(keyword.value("TYPE"));
       const AbaqusElement element(type);
       const unsigned int  n = element.of_cell + element.of_face;
+      if (element.triangular)
+        throw surface_error("Element " + words[0] + " of type " + type);
       if (n == 0)
         {
           if (keyword.has("ELSET"))
@@ -240,7 +242,7 @@ namespace Touchstone
       else
         {
           face[number] = mesh.faces.size();
-          mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
+          mesh.add_face(v, line_of_pending);
         }
       if (keyword.has("ELSET"))
         element_sets.add({line.instance, keyword.value("ELSET")}, number);

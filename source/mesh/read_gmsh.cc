@@ -302,7 +302,7 @@ namespace Touchstone
 
 
     /** Points and lines make sets of nodes, lines by their ends; quadrangles carry the boundary
-     * ids, triangles have none here. */
+     * ids. */
     void
     GmshReader::read_element(const unsigned long              number,
                              const unsigned int               type,
@@ -322,7 +322,13 @@ namespace Touchstone
       if (element_type == element_types.end())
         text.fail("It has elements of Gmsh's type " + std::to_string(type) +
                   ", perhaps of higher order; save it with order 1 or 2.");
-      const Shape               shape    = element_type->second.shape;
+      const Shape shape = element_type->second.shape;
+      if (shape == Shape::triangle)
+        {
+          const MeshFileError error = surface_error("Element " + std::to_string(number) +
+                                                    " of Gmsh's type " + std::to_string(type));
+          text.fail(error.what(), error.remedy);
+        }
       std::vector<unsigned int> vertices = read_vertices(type, element_type->second.n_nodes);
       if (shape == Shape::point || shape == Shape::line)
         {
@@ -342,7 +348,7 @@ namespace Touchstone
         }
       else if (shape == Shape::face)
         {
-          mesh.faces.push_back({{vertices[0], vertices[1], vertices[2], vertices[3]}});
+          mesh.add_face(vertices, numbers.binary() ? number : text.line());
           for (const unsigned int group : of)
             MeshFile::group(mesh.surfaces, group).members.push_back(mesh.faces.size() - 1);
         }

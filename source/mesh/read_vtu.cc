@@ -10,6 +10,7 @@
 #include <istream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 // Meshes from VTK's XML files (.vtu): hexahedra become cells and quadrilaterals faces, numbered by
@@ -180,19 +181,20 @@ namespace Touchstone
                const unsigned int               number,
                const unsigned int               line)
   {
-    // Codes of the VTK manual. Lower-dimensional cells are dropped, other solids are an error,
-    // for the body would have holes without them.
+    // Codes of the VTK manual. Points and lines are dropped. Other solids are an error, for the
+    // body would have holes without them, and so are triangles, polygons and pixels.
     static const std::map<int, unsigned int> quads     = {{9, 4}, {23, 8}, {28, 9}},
                                              hexahedra = {{12, 8}, {25, 20}, {29, 27}};
-    static const std::vector<int> lower = {1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 34, 35};
+    static const std::set<int> lines = {1, 2, 3, 4, 21, 35}, surfaces = {5, 6, 7, 8, 22, 34};
 
     const int         code    = static_cast<int>(type);
     const bool        is_quad = quads.count(code) > 0, is_hexahedron = hexahedra.count(code) > 0;
     const std::string of_type = "VTK's type " + std::to_string(code);
-    const auto        fail    = [&](const std::string &problem) {
+    const auto        fail    = [&](const std::string &problem,
+                          const std::string &remedy = MeshFileError::default_remedy) {
       if (mesh.place == "line")
-        throw MeshFileError(line, problem);
-      throw MeshFileError("Cell " + std::to_string(line) + ", counted from 0: " + problem);
+        throw MeshFileError(line, problem, remedy);
+      throw MeshFileError("Cell " + std::to_string(line) + ", counted from 0: " + problem, remedy);
     };
     if (is_quad || is_hexahedron)
       {
@@ -201,7 +203,12 @@ namespace Touchstone
           fail("A cell of " + of_type + " has " + std::to_string(nodes.size()) + " points, not " +
                std::to_string(n) + ".");
       }
-    else if (std::find(lower.begin(), lower.end(), code) == lower.end())
+    else if (surfaces.count(code) > 0)
+      {
+        const MeshFileError error = surface_error("A cell of " + of_type);
+        fail(error.what(), error.remedy);
+      }
+    else if (lines.count(code) == 0)
       fail("It has cells of " + of_type + ".");
 
     if (is_hexahedron)
@@ -212,8 +219,7 @@ namespace Touchstone
     else if (is_quad)
       {
         MeshFile::group(mesh.surfaces, number).members.push_back(mesh.faces.size());
-        mesh.faces.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}});
-        mesh.face_lines.push_back(line);
+        mesh.add_face(nodes, line);
       }
   }
 

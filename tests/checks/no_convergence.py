@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
-on disk; and names the law of a material that gives way, and ties that contradict each other."""
+on disk; and names the law of a material that gives way, ties that contradict each other, and bodies that start
+to slide."""
 # ctest: label = quick
 
 import re
@@ -40,4 +41,9 @@ for reason in "supports hold slave nodes of 'joint'", "exchange slave and master
 joint = "Contact pair joint"
 run("tied_exchanged", driven, {f"{joint}/Slave body": "outer", f"{joint}/Slave boundaries": "inner",
                                f"{joint}/Master body": "inner", f"{joint}/Master boundaries": "outer"})
+# A body that its load makes slide: how it moves, what that can mean, and the remedy, in summary.json too.
+failed = run("starts_to_slide", checks / "starts_to_slide.prm", fails=True)
+for reason in ("'up' has moved by", " in x on average in this step", "starts to slide as a whole",
+               "'Time integration/Scheme = newmark'"):
+    check(reason in failed.summary["failure"], f"summary.json does not say \"{reason}\"")
 finish()

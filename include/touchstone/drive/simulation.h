@@ -215,6 +215,10 @@ namespace Touchstone
      */
     std::string
     describe(const NonConvergence &failure, bool repeated) const;
+    /** That statics may have no equilibrium any more, as a sentence to follow the reason; empty
+     * where the failure names another cause. */
+    std::string
+    lost_equilibrium(const NonConvergence &failure) const;
     /** Warn of pairs that had contact and have none at the end. */
     void
     check_lost_contact();

@@ -187,6 +187,10 @@ namespace Touchstone
      * if there is no such point. Collective. */
     std::string
     unstable_place() const;
+    /** The component of the mean displacement in this step that is largest, of each body that
+     * contact alone holds. Collective. */
+    std::string
+    motion_of_loose_bodies() const;
     /** Whether rows that change may have no solution, as their friction does not vanish with the
      * pressure; in words, empty if not. Collective. */
     std::string

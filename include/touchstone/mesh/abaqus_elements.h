@@ -18,6 +18,9 @@ namespace Touchstone
 
     /** Nodes of a hexahedron or of a quadrilateral; the other one is zero. */
     unsigned int of_cell, of_face;
+
+    /** Whether it is a triangle, which MeshFile refuses. */
+    bool triangular;
   };
 } // namespace Touchstone
 

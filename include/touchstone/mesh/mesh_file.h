@@ -59,7 +59,7 @@ namespace Touchstone
     std::string place = "line";
     /** Vertices of marked faces in any order. */
     std::vector<std::array<unsigned int, 4>> faces;
-    /** Places of the file where faces stand, of VTK files only. */
+    /** Places of the file where faces stand. */
     std::vector<unsigned int> face_lines;
     std::vector<Group>        volumes, surfaces;
     /** Sets of vertices that the file names. */
@@ -72,6 +72,11 @@ namespace Touchstone
     void
     add_cell(const std::vector<unsigned int> &nodes, unsigned int line);
 
+    /** @brief Add a quadrilateral of 4, 8 or 9 nodes, its corners first.
+     * @param line Where the file has it. */
+    void
+    add_face(const std::vector<unsigned int> &nodes, unsigned int line);
+
     /** @brief The group with this number, or a new one. */
     static Group &
     group(std::vector<Group> &groups, unsigned int number);
@@ -82,6 +87,13 @@ namespace Touchstone
      * @throws MeshFileError that names both lines */
     void
     join_copies(bool one_for_each_volume);
+
+    /** @brief Refuse a quadrilateral that has its corners in common with hexahedra and is the face
+     * of none: it would mark nothing. One that touches no hexahedron, or only with an edge, is
+     * taken for a part of something else.
+     * @throws MeshFileError that names its line */
+    void
+    check_faces() const;
   };
 
   /** @brief Read Gmsh .msh, version 2.x or 4.1 in ASCII, or 4.1 in binary.

@@ -28,6 +28,11 @@ namespace Touchstone
     const std::string remedy;
   };
 
+  /** @brief That a surface has an @p element other than quadrilaterals, which would mark nothing.
+   */
+  MeshFileError
+  surface_error(const std::string &element);
+
   /** @brief Whole numbers and coordinates of a mesh file: the whole of @p word, or an error. */
   unsigned long
   whole_number(const std::string &word);
