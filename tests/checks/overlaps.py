@@ -3,7 +3,7 @@
 number of ranks; bodies that touch, and those whose overlap is adjusted, are not."""
 # ctest: label = quick
 
-from touchstone_test import check, checks, finish, folder, run
+from touchstone_test import check, checks, finish, folder, run, tests
 
 CELLS = [(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (0, 2), (2, 2)]  # of the clamp: x and z of their lower corners
 
@@ -58,4 +58,15 @@ check(len(overlaps(dynamic)) == len(found), f"explicit: {overlaps(dynamic)}")
 # A tenth of a cell deep: within what coarse surfaces that touch may overlap.
 near = run("near", "overlap.prm", {"Load stepping/End time": 0.2})
 check(not overlaps(near), f"a shallow overlap is told of: {overlaps(near)}")
+# A block that turns over on the ground: only one of the boundaries that are named faces it, and the block passes
+# through it beside the others. Before, that was a result.
+SLAVES = "Contact pair contact/Slave boundaries"
+for name, boundaries in ("top_left", "top, left"), ("top_front", "top, front"):
+    through = run(name, tests / "held_by_contact.prm", {SLAVES: boundaries}, fails=True)
+    check("contact pair 'contact': body 'block' reaches into the obstacle 'ground'" in through.text and
+          "Name all that may touch it in 'Slave boundaries'" in through.text, f"{name}: {through.text}")
+one = run("top_left_two_ranks", tests / "held_by_contact.prm", {SLAVES: "top, left"}, ranks=2, fails=True)
+check("reaches into the obstacle 'ground'" in one.text, f"two ranks: {one.text}")
+upright = run("upright", tests / "held_by_contact.prm", {SLAVES: "bottom"})
+check(not overlaps(upright), f"a block on the ground: {overlaps(upright)}")
 finish()
