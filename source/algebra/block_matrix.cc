@@ -215,10 +215,8 @@ namespace Touchstone
     partitioner.export_to_ghosted_array_finish(ghosts, requests);
     std::fill(padded_out.begin(), padded_out.end(), Number(0.));
     product(*pattern, entries.data(), in, padded_out.data());
-    // Not std::copy_n, which calls a function for each node.
     for (unsigned int node = 0; node < n; ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        result[dim * node + d] = padded_out[pad * node + d];
+      std::copy_n(padded_out.data() + pad * node, dim, result + dim * node);
   }
 
 

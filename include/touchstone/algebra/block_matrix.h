@@ -213,13 +213,6 @@ namespace Touchstone
       const Row &
       read_stored(unsigned int node);
 
-      /** @brief Of two blocks of this rank that are transposes of each other one is stored. */
-      bool
-      stored_once() const
-      {
-        return matrix.pattern->symmetric;
-      }
-
       /** @brief Blocks in the whole row of a node. */
       unsigned int
       length(unsigned int node);

@@ -42,12 +42,10 @@ namespace Touchstone
       std::vector<std::vector<int>> graph(n_nodes / group);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
+          const BlockMatrix<float>::Rows::Row &row = matrix.read(node);
           // What lists leave behind as they grow would take as much memory as they do.
           if (group == 1)
-            graph[node].reserve(matrix.length(node));
-          // A block that stands for its transpose couples both nodes to each other alike, and rows
-          // come in ascending order: so do the neighbours in both lists.
-          const BlockMatrix<float>::Rows::Row &row = matrix.read_stored(node);
+            graph[node].reserve(row.columns.size());
           for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
               const unsigned int other = row.columns[k];
@@ -63,11 +61,8 @@ namespace Touchstone
                                                          double(diagonal[dim * node + r]) *
                                                          diagonal[dim * other + c];
                   }
-              if (!strong)
-                continue;
-              graph[node / group].push_back(static_cast<int>(other / group));
-              if (matrix.stored_once())
-                graph[other / group].push_back(static_cast<int>(node / group));
+              if (strong)
+                graph[node / group].push_back(static_cast<int>(other / group));
             }
         }
       if (group > 1)
@@ -159,58 +154,6 @@ namespace Touchstone
                 a[dim * r + c] = -damping[r] * of_matrix.blocks[k][dim * c + r];
             add_product(a, tentative.data() + block * other, row.at(column_of[other]));
           }
-    }
-
-    /** to += P^T from, for the @p n_nodes nodes whose blocks begin at @p start. */
-    TOUCHSTONE_VECTORISED void
-    add_restricted(const std::size_t   n_nodes,
-                   const std::size_t  *start,
-                   const unsigned int *column,
-                   const float        *entries,
-                   const float        *from,
-                   float *__restrict__ const to)
-    {
-      constexpr unsigned int n = Prolongation::n_modes;
-      for (std::size_t node = 0; node < n_nodes; ++node, from += dim)
-        for (std::size_t b = start[node]; b < start[node + 1]; ++b)
-          {
-            const float *const p   = entries + dim * n * b;
-            float *const       out = to + n * column[b];
-            for (unsigned int m = 0; m < n; ++m)
-              out[m] += p[m] * from[0] + p[n + m] * from[1] + p[2 * n + m] * from[2];
-          }
-    }
-
-    /** to += P from. A row of six numbers is two registers of four, of which the second has two
-     * numbers once more: so nothing is read behind the last row. */
-    TOUCHSTONE_VECTORISED void
-    add_prolongated(const std::size_t   n_nodes,
-                    const std::size_t  *start,
-                    const unsigned int *column,
-                    const float        *entries,
-                    const float        *from,
-                    float              *to)
-    {
-      constexpr unsigned int n = Prolongation::n_modes, second = n - 4;
-      using Vector4 = Simd<float, 4>::type;
-      for (std::size_t node = 0; node < n_nodes; ++node, to += dim)
-        {
-          Vector4 low[dim] = {}, high[dim] = {};
-          for (std::size_t b = start[node]; b < start[node + 1]; ++b)
-            {
-              const float *const p     = entries + dim * n * b;
-              const float *const x     = from + n * column[b];
-              const Vector4      x_low = *reinterpret_cast<const Vector4 *>(x),
-                            x_high     = *reinterpret_cast<const Vector4 *>(x + second);
-              for (unsigned int r = 0; r < dim; ++r)
-                {
-                  low[r] += *reinterpret_cast<const Vector4 *>(p + n * r) * x_low;
-                  high[r] += *reinterpret_cast<const Vector4 *>(p + n * r + second) * x_high;
-                }
-            }
-          for (unsigned int r = 0; r < dim; ++r)
-            to[r] += (low[r][0] + low[r][1]) + (low[r][2] + low[r][3]) + (high[r][2] + high[r][3]);
-        }
     }
 
     /**
@@ -424,8 +367,18 @@ namespace Touchstone
   Prolongation::prolongate_and_add(VectorType &to, const VectorType &from) const
   {
     from.update_ghost_values();
-    add_prolongated(
-      start.size() - 1, start.data(), column.data(), entries.data(), from.begin(), to.begin());
+    const float       *in      = from.begin();
+    float             *out     = to.begin();
+    const unsigned int n_nodes = start.size() - 1;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+        {
+          const float *p = entries.data() + block * b;
+          const float *x = in + n_modes * column[b];
+          for (unsigned int r = 0; r < dim; ++r, p += n_modes)
+            out[dim * node + r] +=
+              (p[0] * x[0] + p[1] * x[1] + p[2] * x[2]) + (p[3] * x[3] + p[4] * x[4] + p[5] * x[5]);
+        }
     from.zero_out_ghost_values();
   }
 
@@ -436,9 +389,16 @@ namespace Touchstone
   void
   Prolongation::restrict_to(VectorType &to, const VectorType &from) const
   {
-    to = 0.f;
-    add_restricted(
-      start.size() - 1, start.data(), column.data(), entries.data(), from.begin(), to.begin());
+    to                         = 0.f;
+    const float       *in      = from.begin();
+    float             *out     = to.begin();
+    const unsigned int n_nodes = start.size() - 1;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+        for (unsigned int r = 0; r < dim; ++r)
+          for (unsigned int m = 0; m < n_modes; ++m)
+            out[n_modes * column[b] + m] +=
+              entries[block * b + n_modes * r + m] * in[dim * node + r];
     to.compress(VectorOperation::add);
   }
 } // namespace Touchstone
