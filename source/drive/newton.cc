@@ -128,7 +128,9 @@ namespace Touchstone
     const unsigned int longest = 2 * parameters.maximum_iterations;
     for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
-        state        = problem.residual(damping);
+        // Where round-off keeps forces from balance rows would not be judged at higher levels.
+        constexpr unsigned int judges = 2;
+        state        = problem.residual(stuck >= 3 ? std::min(damping, judges) : damping);
         n_iterations = iteration;
         if (iteration > 0 && (line_search.failed(state) || line_search.oscillates(state)))
           state = line_search.shorten(problem, damping);
@@ -147,7 +149,7 @@ namespace Touchstone
                               state.gap <= parameters.gap_tolerance;
         stuck = (all_else && state.residual > 0.5 * best) ? stuck + 1 : 0;
         best  = all_else ? std::min(best, state.residual) : std::numeric_limits<double>::max();
-        if (stuck >= 3 && state.residual <= 100. * parameters.residual_tolerance)
+        if (stuck >= 3 && state.judged && state.residual <= 100. * parameters.residual_tolerance)
           return iteration;
         settled += (state.changes == 0);
         if (iteration == longest || settled > parameters.maximum_iterations)

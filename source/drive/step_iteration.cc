@@ -140,6 +140,7 @@ namespace Touchstone
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
+    state.judged    = set.judged;
     state.signature = set.signature;
   }
 

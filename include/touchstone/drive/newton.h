@@ -26,10 +26,11 @@ namespace Touchstone
      * displacements are met; no unit. */
     double gap        = 0.;
     bool   prescribed = false;
-    /** Active contact rows, rows that changed, and a number that identifies the
-     * active set. */
+    /** Active contact rows, rows that changed, whether they were judged, and a number that
+     * identifies the active set. */
     unsigned int  active    = 0;
     unsigned int  changes   = 0;
+    bool          judged    = true;
     std::uint64_t signature = 0;
     /** Part of the last increment that was taken; no unit. */
     double fraction = 1.;

@@ -286,6 +286,7 @@ namespace Touchstone
       only = first_violated(rows, violation, communicator);
 
     ActiveSetUpdate result;
+    result.judged = !solve_first;
     for (const ContactRow &row : rows)
       {
         RowState &state = row_states[row];

@@ -41,6 +41,9 @@ namespace Touchstone
   {
     unsigned int active  = 0;
     unsigned int changes = 0;
+    /** Whether rows have been judged at all: at high damping they are only where the conditions of
+     * the present set are met. */
+    bool judged = true;
     /** Identifies the set, to detect that it recurs. */
     std::uint64_t signature = 0;
     /** Largest |gap| of active and penetration of open rows, relative to the
