@@ -125,11 +125,9 @@ namespace Touchstone
       if (left >= 1.)
         return 0.;
       // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight: of the sagitta of the
-      // row, or of so much of that of the face that the node keeps a part of its own motion. Half
-      // as steep where neighbours are pressed farther than flat: they sink as the node rises.
-      Number part = 1.5 * (1. - left) * (1. - left);
-      if (left < 0.5)
-        part = 1.125 - (left > 0. ? 1.5 : 0.75) * left;
+      // row, or of so much of that of the face that the node keeps a part of its own motion.
+      const Number part =
+        left >= 0.5 ? Number(1.5 * (1. - left) * (1. - left)) : Number(1.125 - 1.5 * left);
       const Number of_face = Tolerances::most_of_sagitta * sagitta;
       Number       taken   = part * (of_face < above ? of_face : above);
       if (taken > above)
