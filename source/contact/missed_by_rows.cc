@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
-#include <touchstone/contact/bodies_in_obstacles.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/missed_contact.h>
@@ -210,8 +209,6 @@ namespace Touchstone
             found = {between_nodes(pair.parameters(), place),
                      MissedContact::deep(place),
                      missed.share(place)};
-        if (const BodyInObstacle in = body_in_obstacle(contact, pair); in.passed_through())
-          found = {in.text(pair), true, 1.};
         if (!found.text.empty())
           result[pair.parameters().name] = found;
       }

@@ -19,13 +19,6 @@ namespace Touchstone
     double             depth = 0., size = 0.;
     dealii::Point<dim> x;
 
-    /** @brief Whether it is deeper than the cell: the motion of the body is wrong. */
-    bool
-    passed_through() const
-    {
-      return depth > size;
-    }
-
     /** @brief Pair, place and remedy in words. */
     std::string
     text(const ContactPair &pair) const;
