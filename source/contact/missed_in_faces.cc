@@ -118,7 +118,10 @@ namespace Touchstone
           const double area = counts > sure ? face_area(slave) : worst.place.area;
           if (counts > least)
             samples.push_back({&of.face == &slave ? xi : foot, counts - least});
-          if (counts > std::max(least, worst.place.depth))
+          // Of samples that are equally deep, as along a ridge, the first: not what round-off
+          // chooses.
+          constexpr double deeper = 1. + 1e-6;
+          if (counts > std::max(least, deeper * worst.place.depth))
             worst = {{counts, point.x, size, area},
                      in.face.body,
                      point.x + in.to_straight_edges(foot),
