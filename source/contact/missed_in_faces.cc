@@ -7,6 +7,7 @@
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/search/self_contact.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -217,21 +218,24 @@ namespace Touchstone
     std::size_t             k = 0;
     for (const Face &face : slaves)
       {
-        Overlap             worst;
-        std::vector<Sample> samples;
-        bool                some_adjusted = false;
+        std::vector<Overlap> of_face;
+        std::vector<Sample>  samples;
+        double               area          = 0.;
+        bool                 some_adjusted = false;
         for (; k < found.size() && found[k].point.face == face.key; ++k)
           if (inside[k])
             {
+              of_face.push_back(found[k]);
               samples.insert(samples.end(), of_found[k].begin(), of_found[k].end());
-              const double area = std::max(worst.place.area, found[k].place.area);
-              some_adjusted     = some_adjusted || found[k].adjusted;
-              if (found[k].place.depth > worst.place.depth)
-                worst = found[k];
-              worst.place.area = area;
+              area          = std::max(area, found[k].place.area);
+              some_adjusted = some_adjusted || found[k].adjusted;
             }
-        if (worst.place.depth == 0.)
+        if (of_face.empty())
           continue;
+        // In which order master faces were found, or round-off, must not choose among equals.
+        sort_by_depth(of_face, [](const Overlap &overlap) { return overlap.place; });
+        Overlap &worst   = of_face.front();
+        worst.place.area = area;
         if (!some_adjusted)
           worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
         worst.point.face  = face.key;

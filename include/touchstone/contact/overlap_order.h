@@ -21,9 +21,8 @@ namespace Touchstone
   inline std::array<double, 1 + dim>
   overlap_order(const double depth, const dealii::Point<dim> &x, const double deepest)
   {
-    // Scenes have round coordinates: the shift keeps them, their halves and thirds off the limits
-    // between two numbers.
-    constexpr double shift = 0.17;
+    // Scenes have round coordinates: the shift keeps them off the limits between two numbers.
+    constexpr double shift = 0.3183;
     const double     unit  = 1e-4 * deepest;
     const auto rounded = [unit](const double value) { return std::floor(value / unit + shift); };
     return {{-rounded(depth), rounded(x[0]), rounded(x[1]), rounded(x[2])}};
