@@ -4,6 +4,7 @@
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/narrow_contact.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -75,7 +76,7 @@ namespace Touchstone
         double needed               = 0.;
         for (const MissedContact::Place &place : places)
           needed += modulus * place.area / place.size * place.depth;
-        if (needed > force)
+        if (needed > Tolerances::narrow_contact * force)
           result.push_back(warning(pair.parameters(), places.front()));
       }
     return result;

@@ -16,8 +16,8 @@ namespace Touchstone
    *
    * The surfaces overlap between slave nodes that carry a force. Let the overlap of face f be d_f,
    * and the stiffness of its material behind it E A_f/h_f. Where the forces sum d_f E A_f/h_f that
-   * would take the overlaps away are larger than those that the rows carry, the latter say little
-   * of the force.
+   * would take the overlaps away are several times those that the rows carry
+   * (Tolerances::narrow_contact), the latter say little of the force.
    *
    * Collective.
    */

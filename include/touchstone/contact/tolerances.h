@@ -248,6 +248,11 @@ namespace Touchstone
      * height of the arc over it before the nodes of that meet anything. */
     constexpr double deep_smooth_node = 0.1;
 
+    /** Forces that would take the overlaps beside carrying nodes away, over those that the rows
+     * carry, from which on the latter may be wrong by a factor (doc/theory.md 4.1). With ratios of 1
+     * and 2 forces were 10 and 21 % off. */
+    constexpr double narrow_contact = 4.;
+
     /** How deep a surface node may lie in another cell of the surface, by its thickness, before
      * bodies count as overlapping; and the distance from inner faces, which nodes that hang lie on,
      * from which it lies in a cell at all. */
