@@ -9,7 +9,7 @@
 
 #include <deal.II/base/geometry_info.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -36,7 +36,7 @@ namespace Touchstone
 
 
 
-    /** The centre of some corners of a cell after the four of a face. */
+    /** The corners of a face of a cell, and its centre. */
     std::array<Point<dim>, 5>
     points_of_face(const std::array<Point<dim>, 8> &corners, const unsigned int f)
     {
@@ -48,64 +48,67 @@ namespace Touchstone
         }
       return result;
     }
-  } // namespace
 
 
 
-  std::string
-  BodyInObstacle::text(const ContactPair &pair) const
-  {
-    const ContactPairParameters &names = pair.parameters();
-    char                         where[120];
-    std::snprintf(where,
-                  sizeof(where),
-                  "', by %.3g at (%.3g, %.3g, %.3g)",
-                  depth,
-                  x[0] + 0.,
-                  x[1] + 0.,
-                  x[2] + 0.);
-    return "contact pair '" + names.name + "': body '" + names.slave_body +
-           "' reaches into the obstacle '" + names.obstacle + where +
-           ", with a face that the pair does not name. Name all that may touch it in "
-           "'Slave boundaries'";
-  }
+    /** A point of a body within an obstacle. */
+    struct PointInside
+    {
+      double     depth;
+      Point<dim> x;
+    };
 
 
 
-  BodyInObstacle
-  body_in_obstacle(const Contact &contact, const ContactPair &pair)
-  {
-    if (pair.master())
-      return {};
-    const auto                  named = named_boundaries(contact, pair);
-    const Vector                zero  = contact.with_ghosts(contact.solid_model().zero_vector());
-    std::vector<BodyInObstacle> found;
-    for (const auto &cell : contact.solid_model().dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->material_id() == pair.slave_body() &&
-          cell->at_boundary())
-        {
-          const double size = cell->diameter() / std::sqrt(double(dim));
-          const auto   now  = deformed_vertices(cell, contact.ghosted_displacement()),
-                     before = deformed_vertices(cell, zero);
-          for (const unsigned int f : cell->face_indices())
-            {
-              if (!cell->at_boundary(f) || named.count(cell->face(f)->boundary_id()) > 0)
-                continue;
-              const auto x = points_of_face(now, f), start = points_of_face(before, f);
-              for (unsigned int k = 0; k < x.size(); ++k)
-                {
-                  const double depth = -pair.pairing().distance(x[k], contact.time());
+    /** The points of the slave body within the obstacle of a pair, on this rank. */
+    std::vector<PointInside>
+    points_inside(const Contact &contact, const ContactPair &pair)
+    {
+      const auto               named = named_boundaries(contact, pair);
+      const Vector             zero  = contact.with_ghosts(contact.solid_model().zero_vector());
+      std::vector<PointInside> result;
+      for (const auto &cell : contact.solid_model().dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->material_id() == pair.slave_body() &&
+            cell->at_boundary())
+          {
+            const double least =
+              Tolerances::deep_in_body * cell->diameter() / std::sqrt(double(dim));
+            const auto now    = deformed_vertices(cell, contact.ghosted_displacement()),
+                       before = deformed_vertices(cell, zero);
+            for (const unsigned int f : cell->face_indices())
+              {
+                if (!cell->at_boundary(f) || named.count(cell->face(f)->boundary_id()) > 0)
+                  continue;
+                const auto x = points_of_face(now, f), start = points_of_face(before, f);
+                for (unsigned int k = 0; k < x.size(); ++k)
                   // What has been so from the start, or half as deep, is as the scene has it.
-                  if (depth > Tolerances::deep_in_body * size &&
-                      -pair.pairing().distance(start[k], 0.) < 0.5 * depth)
-                    found.push_back({depth, size, x[k]});
-                }
-            }
-        }
-    std::vector<BodyInObstacle> all = gather_all(found, contact.communicator());
-    sort_by_depth(all, [](const BodyInObstacle &one) { return one; });
-    return all.empty() ? BodyInObstacle() : all.front();
-  }
+                  if (const double depth = -pair.pairing().distance(x[k], contact.time());
+                      depth > least && -pair.pairing().distance(start[k], 0.) < 0.5 * depth)
+                    result.push_back({depth, x[k]});
+              }
+          }
+      return result;
+    }
+
+
+
+    std::string
+    text(const ContactPairParameters &pair, const PointInside &deepest)
+    {
+      char where[120];
+      std::snprintf(where,
+                    sizeof(where),
+                    "', by %.3g at (%.3g, %.3g, %.3g)",
+                    deepest.depth,
+                    deepest.x[0] + 0.,
+                    deepest.x[1] + 0.,
+                    deepest.x[2] + 0.);
+      return "contact pair '" + pair.name + "': body '" + pair.slave_body +
+             "' reaches into the obstacle '" + pair.obstacle + where +
+             ", with a face that the pair does not name. Name all that may touch it in "
+             "'Slave boundaries'";
+    }
+  } // namespace
 
 
 
@@ -114,8 +117,15 @@ namespace Touchstone
   {
     std::vector<std::string> result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const BodyInObstacle found = body_in_obstacle(contact, contact.pair(p)); found.depth > 0.)
-        result.push_back(found.text(contact.pair(p)));
+      if (const ContactPair &pair = contact.pair(p); !pair.master())
+        {
+          std::vector<PointInside> all =
+            gather_all(points_inside(contact, pair), contact.communicator());
+          if (all.empty())
+            continue;
+          sort_by_depth(all, [](const PointInside &point) { return point; });
+          result.push_back(text(pair.parameters(), all.front()));
+        }
     return result;
   }
 } // namespace Touchstone

@@ -48,8 +48,8 @@ namespace Touchstone
     {
       return text(pair, place) +
              ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
-             "contact: refine the slave surface" +
-             (pair.can_be_exchanged() ? ", or exchange slave and master" : "");
+             "contact: " +
+             pair.finer_slave();
     }
 
 

@@ -50,8 +50,7 @@ namespace Touchstone
       return "contact pair '" + pair.name +
              "': what touches is narrower than the slave faces. Between slave nodes that carry the "
              "force the surfaces overlap, " +
-             text + ", so that the force may be too small by a factor. Refine the slave surface" +
-             (pair.can_be_exchanged() ? ", or exchange slave and master" : "");
+             text + ", so that the force may be too small by a factor: " + pair.finer_slave();
     }
   } // namespace
 

@@ -333,30 +333,20 @@ namespace Touchstone
 
 
 
-  unsigned int
-  n_points_in_contact(const Contact &contact)
+  PointsInContact
+  points_in_contact(const Contact &contact)
   {
-    unsigned int n = 0;
+    PointsInContact result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      n += n_in_contact(contact, contact.pair(p));
-    return n;
-  }
-
-
-
-  std::vector<std::string>
-  warnings_of_points(const Contact &contact)
-  {
-    std::vector<std::string> result;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (n_in_contact(contact, contact.pair(p)) > 0)
+      if (const unsigned int n = n_in_contact(contact, contact.pair(p)); n > 0)
         {
+          result.n += n;
           const ContactPairParameters &pair = contact.pair(p).parameters();
-          result.push_back(
+          result.warnings.push_back(
             "contact pair '" + pair.name +
-            "': what touches is narrower than the slave faces and carried by points inside these: the "
-            "force depends on the mesh and may be too large by a factor. Refine the slave surface" +
-            (pair.can_be_exchanged() ? ", or exchange slave and master" : ""));
+            "': what touches is narrower than the slave faces and carried by points inside these, so "
+            "that the force depends on the mesh and may be too large by a factor: " +
+            pair.finer_slave());
         }
     return result;
   }

@@ -128,7 +128,8 @@ namespace Touchstone
     const unsigned int longest = 2 * parameters.maximum_iterations;
     for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
-        // Where round-off keeps forces from balance rows would not be judged at higher levels.
+        // Where round-off keeps forces from balance rows would not be judged at higher levels, see
+        // Enforcement::update_active_set().
         constexpr unsigned int judges = 2;
         state        = problem.residual(stuck >= 3 ? std::min(damping, judges) : damping);
         n_iterations = iteration;

@@ -247,11 +247,11 @@ namespace Touchstone
   StepFindings
   StepProblem::findings() const
   {
-    StepFindings result;
-    result.remarks  = remarks();
-    result.warnings = check_loose_bodies();
-    for (std::string &text : warnings_of_points(contact))
-      result.warnings.push_back(std::move(text));
+    StepFindings          result;
+    const PointsInContact points = points_in_contact(contact);
+    result.remarks               = remarks(points.n);
+    result.warnings              = check_loose_bodies();
+    result.warnings.insert(result.warnings.end(), points.warnings.begin(), points.warnings.end());
     check_contact();
     result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;
@@ -291,7 +291,7 @@ namespace Touchstone
 
 
   std::string
-  StepProblem::remarks() const
+  StepProblem::remarks(const unsigned int points) const
   {
     std::string  text;
     unsigned int dropped = 0;
@@ -303,7 +303,7 @@ namespace Touchstone
       // Where that leaves an overlap missed_contact() tells of it.
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
-    if (const unsigned int points = n_points_in_contact(contact); points > 0)
+    if (points > 0)
       text += std::string(text.empty() ? "" : "\n") + std::to_string(points) +
               " point(s) inside slave faces carry contact that passes between their nodes";
     if (!system->stabilised().empty())

@@ -5,6 +5,7 @@
 #include <touchstone/mesh/mesh_text.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace Touchstone
@@ -67,10 +68,10 @@ namespace Touchstone
       if (const auto found = cell.find(element); found != cell.end())
         {
           faces->second.push_back(mesh.faces.size());
-          std::vector<unsigned int> vertices;
-          for (const unsigned int v : face_vertices[face_name[1] - '1'])
-            vertices.push_back(mesh.cells[found->second].vertices[v]);
-          mesh.add_face(vertices, mesh.cell_lines[found->second]);
+          std::array<unsigned int, 4> corners;
+          for (unsigned int v = 0; v < 4; ++v)
+            corners[v] = mesh.cells[found->second].vertices[face_vertices[face_name[1] - '1'][v]];
+          mesh.add_face(corners, mesh.cell_lines[found->second]);
         }
   }
 

@@ -125,6 +125,27 @@ namespace Touchstone
 
 
 
+  FaceVertices
+  face_of_cell(const std::vector<unsigned int> &cell, const unsigned int f)
+  {
+    FaceVertices face;
+    for (unsigned int v = 0; v < 4; ++v)
+      face[v] = cell[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+    return face;
+  }
+
+
+
+  FaceVertices
+  sorted_face(const std::vector<unsigned int> &cell, const unsigned int f)
+  {
+    FaceVertices face = face_of_cell(cell, f);
+    std::sort(face.begin(), face.end());
+    return face;
+  }
+
+
+
   /** Faces that belong to one cell only. They are compared by their sorted vertices, since
    * neighbours list the vertices of a common face in different orders; a face of three cells is
    * no body. */
@@ -140,14 +161,8 @@ namespace Touchstone
     for (const CellData<3> &cell : cells)
       for (const unsigned int f : GeometryInfo<3>::face_indices())
         {
-          FaceVertices face;
-          for (unsigned int v = 0; v < 4; ++v)
-            face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-          FaceVertices sorted = face;
-          std::sort(sorted.begin(), sorted.end());
-
-          Seen &seen = faces[sorted];
-          seen.face  = face;
+          Seen &seen = faces[sorted_face(cell.vertices, f)];
+          seen.face  = face_of_cell(cell.vertices, f);
           if (++seen.cells > 2)
             throw std::runtime_error("a face belongs to more than two cells");
         }

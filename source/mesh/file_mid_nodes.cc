@@ -151,16 +151,6 @@ namespace Touchstone
             "Two cells have an edge or face in common, but not the node in its middle");
       }
 
-      static FaceVertices
-      sorted_face(const std::vector<unsigned int> &v, const unsigned int f)
-      {
-        FaceVertices face;
-        for (unsigned int i = 0; i < 4; ++i)
-          face[i] = v[GeometryInfo<3>::face_to_cell_vertices(f, i)];
-        std::sort(face.begin(), face.end());
-        return face;
-      }
-
       /** The middle of a face of eight nodes: half the sum of the middle nodes less a quarter of
        * that of the corners. */
       Point<3>

@@ -29,9 +29,9 @@ namespace Touchstone
 
 
   void
-  MeshFile::add_face(const std::vector<unsigned int> &v, const unsigned int line)
+  MeshFile::add_face(const std::array<unsigned int, 4> &corners, const unsigned int line)
   {
-    faces.push_back({{v[0], v[1], v[2], v[3]}});
+    faces.push_back(corners);
     face_lines.push_back(line);
   }
 
@@ -161,13 +161,7 @@ namespace Touchstone
         }
     for (auto cell = cells.begin(); cell != cells.end() && !missing.empty(); ++cell)
       for (const unsigned int f : GeometryInfo<3>::face_indices())
-        {
-          FaceVertices face;
-          for (unsigned int v = 0; v < 4; ++v)
-            face[v] = cell->vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-          std::sort(face.begin(), face.end());
-          missing.erase(face);
-        }
+        missing.erase(sorted_face(cell->vertices, f));
     if (missing.empty())
       return;
     unsigned int first = numbers::invalid_unsigned_int;
@@ -177,5 +171,4 @@ namespace Touchstone
                           " has the corners of hexahedra and is the face of none.",
                         "mesh the surface together with its volume, or save the file without it");
   }
-
 } // namespace Touchstone

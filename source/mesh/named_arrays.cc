@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/mesh_text.h>
 #include <touchstone/mesh/named_arrays.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 // Boundaries and sets of nodes of VTK files, legacy and XML, which have no names but those of
@@ -22,14 +22,10 @@ namespace Touchstone
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         for (const unsigned int f : GeometryInfo<3>::face_indices())
           {
-            std::vector<unsigned int> face(4);
-            bool                      marked = true;
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                face[v] = mesh.cells[c].vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-                marked  = marked && marks[face[v]] != 0.;
-              }
-            if (marked)
+            const FaceVertices face = face_of_cell(mesh.cells[c].vertices, f);
+            if (std::all_of(face.begin(), face.end(), [&](const unsigned int v) {
+                  return marks[v] != 0.;
+                }))
               {
                 group.members.push_back(mesh.faces.size());
                 mesh.add_face(face, mesh.cell_lines[c]);

@@ -242,7 +242,7 @@ namespace Touchstone
       else
         {
           face[number] = mesh.faces.size();
-          mesh.add_face(v, line_of_pending);
+          mesh.add_face({{v[0], v[1], v[2], v[3]}}, line_of_pending);
         }
       if (keyword.has("ELSET"))
         element_sets.add({line.instance, keyword.value("ELSET")}, number);

@@ -348,7 +348,8 @@ namespace Touchstone
         }
       else if (shape == Shape::face)
         {
-          mesh.add_face(vertices, numbers.binary() ? number : text.line());
+          mesh.add_face({{vertices[0], vertices[1], vertices[2], vertices[3]}},
+                        numbers.binary() ? number : text.line());
           for (const unsigned int group : of)
             MeshFile::group(mesh.surfaces, group).members.push_back(mesh.faces.size() - 1);
         }

@@ -219,7 +219,7 @@ namespace Touchstone
     else if (is_quad)
       {
         MeshFile::group(mesh.surfaces, number).members.push_back(mesh.faces.size());
-        mesh.add_face(nodes, line);
+        mesh.add_face({{nodes[0], nodes[1], nodes[2], nodes[3]}}, line);
       }
   }
 

@@ -111,11 +111,13 @@ namespace Touchstone
       return !tied() && obstacle.empty() && slave_body == master_body;
     }
 
-    /** @brief Whether slave and master can be exchanged: two surfaces of bodies that are meshes. */
-    bool
-    can_be_exchanged() const
+    /** @brief The remedy where slave faces are too large for what touches them. */
+    std::string
+    finer_slave() const
     {
-      return obstacle.empty() && !of_one_body();
+      const bool can_be_exchanged = obstacle.empty() && !of_one_body();
+      return std::string("refine the slave surface") +
+             (can_be_exchanged ? ", or exchange slave and master" : "");
     }
 
     /** @param values Of this section: pairing and behaviour decide on other keys. */

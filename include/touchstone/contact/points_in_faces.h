@@ -24,14 +24,17 @@ namespace Touchstone
   std::string
   pairs_with_points(const Contact &contact);
 
-  /** @brief How many such points carry a force. Collective. */
-  unsigned int
-  n_points_in_contact(const Contact &contact);
+  /** @brief Such points that carry a force. */
+  struct PointsInContact
+  {
+    unsigned int n = 0;
+    /** One for each pair that has some: its contact is narrower than the slave faces. */
+    std::vector<std::string> warnings;
+  };
 
-  /** @brief A warning for each pair whose contact such points carry: it is narrower than the slave
-   * faces. Collective. */
-  std::vector<std::string>
-  warnings_of_points(const Contact &contact);
+  /** @brief Find them. Collective. */
+  PointsInContact
+  points_in_contact(const Contact &contact);
 } // namespace Touchstone
 
 #endif

@@ -249,8 +249,8 @@ namespace Touchstone
     constexpr double deep_smooth_node = 0.1;
 
     /** Forces that would take the overlaps beside carrying nodes away, over those that the rows
-     * carry, from which on the latter may be wrong by a factor (doc/theory.md 4.1). With ratios of 1
-     * and 2 forces were 10 and 21 % off. */
+     * carry, from which on the latter may be wrong by a factor (doc/theory.md 4.1). With ratios of
+     * 1.4 and 2.4 forces were 10 and 21 % off. */
     constexpr double narrow_contact = 4.;
 
     /** How deep a surface node may lie in another cell of the surface, by its thickness, before

@@ -97,8 +97,9 @@ namespace Touchstone
     /** See findings(). @throws UnresolvedContactFailure */
     void
     check_contact() const;
+    /** @param points PointsInContact::n. */
     std::string
-    remarks() const;
+    remarks(unsigned int points) const;
     /** See difficulty(). */
     std::string
     worst_place() const;

@@ -62,6 +62,15 @@ namespace Touchstone
   /** @brief Vertices of a face. */
   using FaceVertices = std::array<unsigned int, 4>;
 
+  /** @brief Those of face @p f of a hexahedron, in deal.II's order. @param cell Its corners first.
+   */
+  FaceVertices
+  face_of_cell(const std::vector<unsigned int> &cell, unsigned int f);
+
+  /** @brief The same in ascending order, in which two cells have a common face alike. */
+  FaceVertices
+  sorted_face(const std::vector<unsigned int> &cell, unsigned int f);
+
   /**
    * @brief The faces that belong to one cell only.
    * @throws std::runtime_error if a face belongs to more than two cells.

@@ -72,10 +72,9 @@ namespace Touchstone
     void
     add_cell(const std::vector<unsigned int> &nodes, unsigned int line);
 
-    /** @brief Add a quadrilateral of 4, 8 or 9 nodes, its corners first.
-     * @param line Where the file has it. */
+    /** @brief Add a quadrilateral. @param line Where the file has it. */
     void
-    add_face(const std::vector<unsigned int> &nodes, unsigned int line);
+    add_face(const std::array<unsigned int, 4> &corners, unsigned int line);
 
     /** @brief The group with this number, or a new one. */
     static Group &
