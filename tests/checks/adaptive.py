@@ -61,7 +61,8 @@ below("fit, largest pressure", fit.error("contact_pressure_max_deviation"), 2e-2
 # Hertz: the error of the pressure profile, and ranks.
 hertz = golden("adaptive_hertz")
 same(hertz, golden("adaptive_hertz", 2), 1e-8)
-below("hertz, pressure_l2", hertz.error("pressure_l2"), 0.07)
+# As a field: means at the nodes of a coarse mesh are at odds with values at points by as much (doc/theory.md 3.1).
+below("hertz, pressure_field_l2", hertz.error("pressure_field_l2"), 0.07)
 
 finer = run("hertz_finer", prm / "hertz_sphere_adaptive.prm")
 below("hertz_finer, pressure_l2", finer.error("pressure_l2"), 0.01)

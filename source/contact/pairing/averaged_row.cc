@@ -124,12 +124,15 @@ namespace Touchstone
       const Number left = 0.5 * (positive - mean) / sagitta + Tolerances::odd_curvature;
       if (left >= 1.)
         return 0.;
-      // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight: of the sagitta of the
-      // row, or of so much of that of the face that the node keeps a part of its own motion.
-      const Number part =
-        left >= 0.5 ? Number(1.5 * (1. - left) * (1. - left)) : Number(1.125 - 1.5 * left);
-      const Number of_face = Tolerances::most_of_sagitta * sagitta;
-      Number       taken   = part * (of_face < above ? of_face : above);
+      // 3/2 (1 - kappa)^2 up to the slope 3/2, from there on straight, and half as steep on faces
+      // that are pressed beyond flat: of the sagitta of the row, or of so much of that of the face
+      // that the node keeps a part of its own motion.
+      constexpr double flat    = Tolerances::odd_curvature;
+      const Number     part    = left >= 0.5    ? Number(1.5 * (1. - left) * (1. - left))
+                                 : left >= flat ? Number(1.125 - 1.5 * left)
+                                                : Number(1.125 - 0.75 * (flat + left));
+      const Number     of_face = Tolerances::most_of_sagitta * sagitta;
+      Number           taken   = part * (of_face < above ? of_face : above);
       if (taken > above)
         taken = above;
       taken *= weight;
