@@ -314,6 +314,8 @@ main(int argc, char **argv)
             0.,
             0.005);
     }
+  // Narrow contact, where gaps follow the shape of the surfaces.
+  check("steep flanks, degree 2", ball, {averaged, degree_2}, 0., 0.005);
   // Between surfaces that nearly fit the arches of patches matter, which follow normals at nodes.
   check(
     "averaged, smoothed, faceted tubes that nearly fit",

@@ -66,7 +66,7 @@ namespace Touchstone
             {
               FaceShareDerivative &sum = sums[index(node)].face;
               sum.area[e] += weight * change.integrals[OverlapColumns::area];
-              sum.shape_area[e] += weight * change.area;
+              sum.shape_area[e] += weight * change.shape_area;
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   sum.gap[c][e] += weight * change.integrals[OverlapColumns::gap + c];
@@ -79,8 +79,8 @@ namespace Touchstone
         for (unsigned int m = 0; m < n; ++m)
           for (unsigned int j = 0; j < n; ++j)
             {
-              // As in add_normals, with the shape function besides.
-              const double w = face.dual.weight(k, j), c = face.dual.shape(k, j);
+              // As in add_normals, with the positive function besides.
+              const double w = face.dual.weight(k, j), c = face.dual.positive(k, j);
               if (part.master_smooth)
                 {
                   auto &by_master = face_by_master[part.master];
@@ -139,7 +139,7 @@ namespace Touchstone
                 sum.kept[e] += weight * d.share[k];
                 // Given away is what is not kept of the area of the node.
                 sum.given[e] += weight * (d.area - d.share[k]);
-                sum.shape_area[e] += weight * d.area;
+                sum.shape_area[e] += weight * d.shape_area;
                 sum.arch[e] += weight * d.arch;
                 sum.inclined[e] += weight * d.inclined;
                 if (part)
@@ -183,7 +183,7 @@ namespace Touchstone
                   const std::uint64_t key = face.slave.face().key;
                   by_slave_normals[key][m] += w * part.gap_slave_normal[j][m];
                   arch_by_slave_normals[key][m] +=
-                    face.dual.shape(k, j) * part.arch_slave_normal[j][m];
+                    face.dual.positive(k, j) * part.arch_slave_normal[j][m];
                 }
             }
         // Smallest gaps enter by equation (7). In most rows their derivative is zero, and the

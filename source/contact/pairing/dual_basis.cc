@@ -56,6 +56,8 @@ namespace Touchstone
     , basis(basis)
     , inverse(mass)
   {
+    if (mass.m() == Face::max_nodes)
+      set_positive_parts();
     if (!basis)
       {
         weights = divide_by_mass(shares, inverse);
@@ -70,6 +72,25 @@ namespace Touchstone
     product = divide_by_mass(shares, inverse);
     weights.reinit(mass.m(), mass.m());
     product.mmult(weights, transposed);
+  }
+
+
+
+  void
+  DualBasis::set_positive_parts()
+  {
+    // Biquadratic functions have their values at the nodes as coefficients: along a side the
+    // straight line to an end has 1/2 in the middle.
+    const auto along = [](const unsigned int a, const unsigned int b) {
+      return a == b ? 1. : a != 1 && b == 1 ? 0.5 : 0.;
+    };
+    constexpr unsigned int n = Face::max_nodes, side = 3;
+    positive_parts.reinit(n, n);
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        if (const double c = shape(k, i); c != 0.)
+          for (unsigned int j = 0; j < n; ++j)
+            positive_parts(k, j) += c * along(i % side, j % side) * along(i / side, j / side);
   }
 
 

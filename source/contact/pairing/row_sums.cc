@@ -56,9 +56,9 @@ namespace Touchstone
     least = std::min(least, part.least);
     for (unsigned int j = 0; j < n; ++j)
       {
-        arch += dual.shape(k, j) * part.q[j][OverlapColumns::arch];
-        inclined += dual.shape(k, j) * part.q[j][OverlapColumns::inclined];
-        shape_area += dual.shape(k, j) * part.q[j][OverlapColumns::area];
+        arch += dual.positive(k, j) * part.q[j][OverlapColumns::arch];
+        inclined += dual.positive(k, j) * part.q[j][OverlapColumns::inclined];
+        shape_area += dual.positive(k, j) * part.q[j][OverlapColumns::area];
       }
     if (!face)
       return;
@@ -70,7 +70,7 @@ namespace Touchstone
       }
     beside = std::min(beside, part.beside[k]);
     length = part.length;
-    // The same of this face alone; and integrals of 1 and gap with the shape function itself.
+    // The same of this face alone; and integrals of 1 and gap with the positive function.
     face->own    = std::min(face->own, part.own[k]);
     face->beside = std::min(face->beside, part.beside[k]);
     face->least  = std::min(face->least, part.least);
@@ -78,7 +78,7 @@ namespace Touchstone
     for (unsigned int d = 0; d < dim; ++d)
       face->gap[d] += r[OverlapColumns::gap + d];
     for (unsigned int j = 0; j < n; ++j)
-      if (const double c = dual.shape(k, j); c != 0.)
+      if (const double c = dual.positive(k, j); c != 0.)
         {
           face->shape_area += c * part.q[j][OverlapColumns::area];
           for (unsigned int d = 0; d < dim; ++d)

@@ -149,11 +149,12 @@ namespace Touchstone
     if (i < n)
       change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
     change.reference *= whole[k] / present[k];
-    change.shape_gap = Tensor<1, dim>();
-    change.arch = change.inclined = 0.;
+    change.shape_gap  = Tensor<1, dim>();
+    change.shape_area = change.arch = change.inclined = 0.;
     for (unsigned int j = 0; j < n; ++j)
-      if (const double c = dual.shape(k, j); c != 0.)
+      if (const double c = dual.positive(k, j); c != 0.)
         {
+          change.shape_area += c * d_q(v, j, OverlapColumns::area);
           change.arch += c * d_q(v, j, OverlapColumns::arch);
           change.inclined += c * d_q(v, j, OverlapColumns::inclined);
           for (unsigned int d = 0; d < dim; ++d)

@@ -19,7 +19,7 @@ namespace Touchstone
   {
     /** Face::key. */
     std::uint64_t key = 0;
-    /** Integrals of psi'_k and of the gap with it, the same with the shape function N~_k; area,
+    /** Integrals of psi'_k and of the gap with it, the same with DualBasis::positive(); area,
      * area times length. */
     double                 area = 0., shape_area = 0.;
     dealii::Tensor<1, dim> gap, shape_gap;
@@ -60,8 +60,8 @@ namespace Touchstone
     /** The integral of the displacement of the slave relative to the master with psi'_k, area times
      * length, and this displacement at the node, length. */
     dealii::Tensor<1, dim> moved, own_moved;
-    /** Integrals with N~_k of the distance of the slave surface from its facets, of
-     * OverlapSample::inclined, and of 1; area times length, area, area. */
+    /** Integrals with DualBasis::positive() of the distance of the slave surface from its facets,
+     * of OverlapSample::inclined, and of 1; area times length, area, area. */
     double arch = 0., inclined = 0., shape_area = 0.;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
      * there, length. */

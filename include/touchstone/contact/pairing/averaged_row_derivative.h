@@ -84,7 +84,8 @@ namespace Touchstone
     /** The integral of the arch by normals of slave faces. */
     std::unordered_map<std::uint64_t, std::array<dealii::Tensor<1, dim>, Face::max_nodes>>
       arch_by_slave_normals;
-    /** Its integrals of the gap with psi'_k and N~_k by the normals of its nodes. */
+    /** Its integrals of the gap with psi'_k and DualBasis::positive() by the normals of its nodes.
+     */
     NodeMatrices face_gap_by_slave{}, face_shape_gap_by_slave{};
     /** The same by the normals of master patches. */
     std::unordered_map<const Face *, std::array<NodeMatrices, 2>> face_by_master;

@@ -74,6 +74,16 @@ namespace Touchstone
       return basis ? basis->weights[j][k] : (j == k ? 1. : 0.);
     }
 
+    /** @brief The part of N_j in P_k, a function that is 1 at node k and nowhere negative, for
+     * means over what is near the node, no unit: N~_k for degree 1. For degree 2, where N_k is
+     * negative on half of the face or more, the product of straight lines to nodes at ends and of
+     * parabolas to nodes in the middle. */
+    double
+    positive(const unsigned int k, const unsigned int j) const
+    {
+      return positive_parts.empty() ? shape(k, j) : positive_parts(k, j);
+    }
+
     /** @brief The Y of some integrals Q. */
     Solution
     solve(const dealii::FullMatrix<double> &q) const;
@@ -98,6 +108,11 @@ namespace Touchstone
     const TraceBasis *basis;
     /** M~^-1 of the regularised matrix, and W. */
     dealii::FullMatrix<double> inverse, weights;
+    /** positive(), empty for degree 1. */
+    dealii::FullMatrix<double> positive_parts;
+
+    void
+    set_positive_parts();
 
     /** The matrix C^T; the unit matrix if no node hangs. */
     dealii::FullMatrix<double>

@@ -70,9 +70,10 @@ namespace Touchstone
       double            area, reference;
       /** Of the integrals with psi'_k, by columns. */
       std::vector<double> integrals;
-      /** Of the integrals of gap, arch and OverlapSample::inclined with N~_k. */
+      /** Of the integrals of gap, 1, arch and OverlapSample::inclined with DualBasis::positive().
+       */
       dealii::Tensor<1, dim> shape_gap;
-      double                 arch, inclined;
+      double                 shape_area, arch, inclined;
     };
 
     /** @brief Evaluate it for component @p e of node @p i. */
