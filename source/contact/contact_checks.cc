@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/contact/tolerances.h>
@@ -172,6 +173,17 @@ namespace Touchstone
                            overlap.place(solid) + " in the mesh",
                            "make a mesh in which the surfaces that meet do not overlap");
     }
+    /** The deepest overlap of a pair in a state without contact forces. Collective. */
+    MissedContact::Place
+    overlap_between_nodes(const Contact &contact, const ContactPair &pair)
+    {
+      // Overlaps that are adjusted are none, and surfaces that will be tied are not to be kept
+      // apart.
+      if (pair.tied() || !pair.master() || pair.parameters().of_one_body() ||
+          pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+        return {};
+      return MissedContact(contact, pair, normal_forces(contact, pair)).deepest();
+    }
   } // namespace
 
 
@@ -220,8 +232,23 @@ namespace Touchstone
            : treatment == ContactPairParameters::Overlap::ramp
              ? "an interference that grows with time"
              : "taken as interference");
+        const MissedContact::Place between =
+          overlapping == 0 ? overlap_between_nodes(contact, pair) : MissedContact::Place();
         char text[300];
-        if (partner == 0)
+        if (between.depth > 0.)
+          std::snprintf(text,
+                        sizeof(text),
+                        "%u %s, %u face the master surface, smallest gap %.4g, between them, at "
+                        "(%.4g, %.4g, %.4g)%s",
+                        total,
+                        what,
+                        partner,
+                        -between.depth,
+                        between.x[0],
+                        between.x[1],
+                        between.x[2],
+                        overlap.c_str());
+        else if (partner == 0)
           // Without a partner no row has a gap to report.
           std::snprintf(
             text, sizeof(text), "no master face within reach of any of %u %s", total, what);
