@@ -95,9 +95,7 @@ namespace Touchstone
      * carried a force when the last step ended. @return the iterations of the solve that
      * converged. @throws NonConvergence */
     unsigned int
-    first_round(const Newton           &newton,
-                const Newton::Observer &observer,
-                const Vector           &first_guess);
+    first_round(const Newton &newton, const Newton::Observer &observer, const Vector &first_guess);
 
     /** See findings(). */
     std::vector<std::string>
