@@ -53,7 +53,7 @@ namespace Touchstone
         // that match or are symmetric put nodes there, where round-off or the jump itself
         // would choose a different face in each iteration. The tolerance is small, so that a node
         // that has just slid over the edge is not assigned to the face it came from.
-        const double edge = Tolerances::on_edge * diagonal(face);
+        const double edge = Tolerances::between_faces * diagonal(face);
         const double tie  = Tolerances::equal_squares * square + edge * edge;
         if (square < best_square - tie)
           n_equal = 0;
@@ -103,7 +103,7 @@ namespace Touchstone
           return result;
         for (std::size_t i = 0; i < n_equal; ++i)
           {
-            const double edge = Tolerances::on_edge * diagonal(*equal[i].face);
+            const double edge = Tolerances::between_faces * diagonal(*equal[i].face);
             if (equal[i].face != best.face &&
                 equal[i].projection.distance_squared <
                   best_square * (1. + Tolerances::equal_squares) + edge * edge)
