@@ -26,9 +26,10 @@ BALANCE = 1e-6
 PENETRATION = 1e-6
 # Relative to the largest pressure, in pictures.
 PRESSURE = 1e-4
-# Relative to the size of the scene, slip that has no direction; relative to Young's modulus,
-# pressure that is none.
+# Relative to the size of the scene, slip that has no direction.
 ROUND_OFF = 1e-10
+# Relative to Young's modulus: a tenth of the pressure of gaps that are within their tolerance of 1e-8.
+NO_PRESSURE = 1e-9
 
 
 def largest_force(scene, result):
@@ -149,8 +150,8 @@ def tractions(scene, result):
     if not result.nodes:
         return
     largest = max(abs(n.pressure) for n in result.nodes)
-    # Bodies that only touch press each other with what round-off leaves.
-    none = ROUND_OFF * scene.stiffness() / scene.size() ** 2
+    # Bodies that only touch press each other with what the tolerance of gaps leaves.
+    none = NO_PRESSURE * scene.stiffness() / scene.size() ** 2
     for node in result.nodes:
         pair = scene.pairs[node.pair]
         bound = PRESSURE * max(abs(n.pressure) for n in result.nodes if n.pair == node.pair)

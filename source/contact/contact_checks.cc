@@ -173,6 +173,9 @@ namespace Touchstone
                            overlap.place(solid) + " in the mesh",
                            "make a mesh in which the surfaces that meet do not overlap");
     }
+
+
+
     /** The deepest overlap of a pair in a state without contact forces. Collective. */
     MissedContact::Place
     overlap_between_nodes(const Contact &contact, const ContactPair &pair)

@@ -200,12 +200,7 @@ namespace Touchstone
       {
         return newton.solve(*this, observer);
       }
-    catch (const NewtonFailure &)
-      {
-        if (!begin_with_committed_points(contact))
-          throw;
-      }
-    catch (const ActiveSetCycle &)
+    catch (const NonConvergence &)
       {
         if (!begin_with_committed_points(contact))
           throw;

@@ -63,8 +63,8 @@ namespace Touchstone
     // ---------------------------------------------------------------- lengths by the size of a
     // face
 
-    /** Closer to an edge of a face than this a node lies on it: which of the faces there is its
-     * partner must not be decided by round-off or by the jump of normals. */
+    /** Closer to an edge of a face than this a point lies on it, and places that are equal but for
+     * this are equally good: round-off must not choose among them. */
     constexpr double on_edge = 1e-7;
 
     /** A node that is as close to two faces but for this lies on the edge between them and has the
