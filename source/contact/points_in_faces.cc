@@ -15,9 +15,8 @@
 
 // Which points inside slave faces have rows (doc/theory.md 4.2). It follows from states of balance
 // alone, each with fewer points than the next, the first of a step without any: so it depends
-// neither on the iterates of Newton's method nor on numbers of nodes or ranks, nor on the steps
-// before. What depends on these anyway, plastic bodies and friction, goes on from the points of the
-// last step: the first always, the second where there is no balance without points.
+// neither on the iterates of Newton's method nor on numbers of nodes or ranks, and without
+// plasticity not on the steps before either.
 namespace Touchstone
 {
   using namespace dealii;
@@ -302,25 +301,6 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (contact.pair(p).takes_points() && !contact.pair(p).points().empty())
         contact.set_points(p, {});
-  }
-
-
-
-  bool
-  begin_with_committed_points(Contact &contact)
-  {
-    bool any = false;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      // Without friction and plasticity no step may depend on those before.
-      if (const ContactPair &pair = contact.pair(p);
-          pair.takes_points() &&
-          (pair.parameters().friction || contact.solid_model().has_history()))
-        if (const std::vector<MaterialPoint> points = carrying(contact, pair); !points.empty())
-          {
-            contact.set_points(p, points);
-            any = true;
-          }
-    return any;
   }
 
 

@@ -168,8 +168,7 @@ namespace Touchstone
     constexpr unsigned int most_rounds = 10;
     for (unsigned int round = 0; round <= most_rounds; ++round)
       {
-        n_iterations +=
-          round == 0 ? first_round(newton, observer, first_guess) : newton.solve(*this, observer);
+        n_iterations += newton.solve(*this, observer);
         // A correction may be smaller than the tolerance of gaps: without a solve the forces would
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
@@ -187,29 +186,6 @@ namespace Touchstone
         contact.begin_again(committed_u, committed_time);
       }
     return n_iterations;
-  }
-
-
-
-  unsigned int
-  StepProblem::first_round(const Newton           &newton,
-                           const Newton::Observer &observer,
-                           const Vector           &first_guess)
-  {
-    try
-      {
-        return newton.solve(*this, observer);
-      }
-    catch (const NonConvergence &)
-      {
-        if (!begin_with_committed_points(contact))
-          throw;
-      }
-    // There need not be a balance without the points that have carried a force.
-    forget_increment();
-    u = first_guess;
-    contact.begin_again(committed_u, committed_time);
-    return newton.solve(*this, observer);
   }
 
 

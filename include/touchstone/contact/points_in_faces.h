@@ -14,12 +14,6 @@ namespace Touchstone
   void
   withdraw_points(Contact &contact);
 
-  /** @brief Give rows to the points that carried a force when the last step ended, in a state in
-   * which no point has a row, of pairs with friction and of bodies with plasticity: other results
-   * must not depend on steps. @return whether there are any. Collective. */
-  bool
-  begin_with_committed_points(Contact &contact);
-
   /** @brief Give rows to material points inside slave faces that the other surface has entered
    * between nodes that touch nothing, in a state of balance (doc/theory.md 4.2).
    * @return whether the state is to be solved again with other points. Collective. */

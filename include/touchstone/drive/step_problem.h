@@ -91,12 +91,6 @@ namespace Touchstone
     void
     begin_step(double t);
 
-    /** Solve the step without points inside slave faces; if that has no balance with those that
-     * carried a force when the last step ended. @return the iterations of the solve that
-     * converged. @throws NonConvergence */
-    unsigned int
-    first_round(const Newton &newton, const Newton::Observer &observer, const Vector &first_guess);
-
     /** See findings(). */
     std::vector<std::string>
     check_loose_bodies() const;
