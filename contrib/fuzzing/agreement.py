@@ -32,8 +32,9 @@ def _vectors(scene, result):
 def difference(scene_a, a, scene_b, b):
     """Largest difference of a force or moment at a common time, relative, and where."""
     first, second = _vectors(scene_a, a), _vectors(scene_b, b)
-    # Gaps within their tolerance, 1e-8 of a face, make forces of up to 1e-10 of the stiffness.
-    size = max(largest_force(scene_a, a), 1e-10 / EXACT * scene_a.stiffness())
+    # Gaps within their tolerance, 1e-8 of a face, make forces of up to 1e-10 of the stiffness; a tenth
+    # of that is no difference.
+    size = max(largest_force(scene_a, a), 1e-11 / EXACT * scene_a.stiffness())
     size /= scene_a.stress * scene_a.length ** 2
     units = {"force": size, "moment": size * scene_a.size() / scene_a.length}
     worst = (0.0, "")

@@ -28,8 +28,8 @@ PENETRATION = 1e-6
 PRESSURE = 1e-4
 # Relative to the size of the scene, slip that has no direction.
 ROUND_OFF = 1e-10
-# Relative to Young's modulus: a tenth of the pressure of gaps that are within their tolerance of 1e-8.
-NO_PRESSURE = 1e-9
+# Relative to Young's modulus: a fiftieth of the pressure of gaps that are within their tolerance of 1e-8.
+NO_PRESSURE = 2e-10
 
 
 def largest_force(scene, result):

@@ -235,23 +235,22 @@ namespace Touchstone
            : treatment == ContactPairParameters::Overlap::ramp
              ? "an interference that grows with time"
              : "taken as interference");
-        const MissedContact::Place between =
-          overlapping == 0 ? overlap_between_nodes(contact, pair) : MissedContact::Place();
-        char text[300];
-        if (between.depth > 0.)
-          std::snprintf(text,
-                        sizeof(text),
-                        "%u %s, %u face the master surface, smallest gap %.4g, between them, at "
-                        "(%.4g, %.4g, %.4g)%s",
-                        total,
-                        what,
-                        partner,
-                        -between.depth,
-                        between.x[0],
-                        between.x[1],
-                        between.x[2],
-                        overlap.c_str());
-        else if (partner == 0)
+        std::string place;
+        char        text[300];
+        if (overlapping == 0)
+          if (const MissedContact::Place between = overlap_between_nodes(contact, pair);
+              between.depth > 0.)
+            {
+              lowest = -between.depth;
+              std::snprintf(text,
+                            sizeof(text),
+                            ", between them, at (%.4g, %.4g, %.4g)",
+                            between.x[0] + 0.,
+                            between.x[1] + 0.,
+                            between.x[2] + 0.);
+              place = text + overlap;
+            }
+        if (partner == 0 && place.empty())
           // Without a partner no row has a gap to report.
           std::snprintf(
             text, sizeof(text), "no master face within reach of any of %u %s", total, what);
@@ -263,7 +262,7 @@ namespace Touchstone
                         what,
                         partner,
                         lowest,
-                        overlapping == 0 ? "" : overlap.c_str());
+                        overlapping == 0 ? place.c_str() : overlap.c_str());
         lines.push_back("contact pair " + pair.parameters().name + ": " + text);
       }
     return lines;
