@@ -5,7 +5,7 @@
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/face_area.h>
-#include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/geometry/sampled_face.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/search/self_contact.h>
@@ -67,70 +67,67 @@ namespace Touchstone
 
 
   void
-  MissedContact::add_points(const MeasuredFace  &of,
-                            const MeasuredFace  &in,
+  MissedContact::add_points(const SampledFace   &of,
+                            const SampledFace   &in,
                             const Face          &slave,
                             Overlap             &worst,
                             std::vector<Sample> &samples) const
   {
     const double size  = worst.place.size,
                  least = Tolerances::touching * size + of.sagitta() + in.sagitta();
-    for (const double a : MeasuredFace::samples)
-      for (const double b : MeasuredFace::samples)
-        {
-          const Xi        xi    = {{a, b}};
-          const FacePoint point = evaluate(of.face, of.exact, xi);
-          if (!in.meets(point.normal()))
-            continue;
-          Xi         foot;
-          const auto depth = in.depth(point.x, least, foot);
-          // Deeper points belong to another side of the body, or contact_checks finds the bodies
-          // within each other.
-          if (!depth || *depth > size)
-            continue;
-          if (pair.parameters().of_one_body())
-            {
-              const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
-              if (SelfContact::through_body(
-                    evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x,
-                    there.x,
-                    there.normal(),
-                    *depth))
-                continue;
-            }
-          double counts = *depth;
-          if (const double part = part_adjusted(); part > 0.)
-            {
-              const Face before = MeasuredFace::in_reference(of.face),
-                         there  = MeasuredFace::in_reference(in.face);
-              Xi unused;
-              // None if the point has slid here from another face: then what rows have at most.
-              const auto start =
-                MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
-              const double taken_out = std::max(adjusted, part * start.value_or(0.));
-              counts -= taken_out;
-              // The gap of a row there would have to be less by it, too. Round-off of surfaces that
-              // touch is no overlap.
-              if (taken_out > Tolerances::touches_at_start * size)
-                worst.adjusted = true;
-            }
-          // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
-          const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
-          const double area = counts > sure ? face_area(slave) : worst.place.area;
-          if (counts > least)
-            samples.push_back({&of.face == &slave ? xi : foot, counts - least});
-          // Of samples that are equally deep, as along a ridge, the first: not what round-off
-          // chooses.
-          constexpr double deeper = 1. + 1e-6;
-          if (counts > std::max(least, deeper * worst.place.depth))
-            worst = {{counts, point.x, size, area},
-                     in.face.body,
-                     point.x + in.to_straight_edges(foot),
-                     true,
-                     worst.adjusted,
-                     &of.face == &slave ? xi : foot,
-                     {}};
-        }
+    for (const SampledFace::Sample &point : of.points())
+      {
+        // Deeper points belong to another side of the body, or contact_checks finds the bodies
+        // within each other.
+        if (!in.meets(point.normal) || in.beside(point.x, size))
+          continue;
+        Xi         foot;
+        const auto depth = in.depth(point.x, least, foot);
+        if (!depth || *depth > size)
+          continue;
+        if (pair.parameters().of_one_body())
+          {
+            const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
+            if (SelfContact::through_body(
+                  evaluate(MeasuredFace::in_reference(of.face), of.exact, point.xi).x,
+                  there.x,
+                  there.normal(),
+                  *depth))
+              continue;
+          }
+        double counts = *depth;
+        if (const double part = part_adjusted(); part > 0.)
+          {
+            const Face before = MeasuredFace::in_reference(of.face),
+                       there  = MeasuredFace::in_reference(in.face);
+            Xi unused;
+            // None if the point has slid here from another face: then what rows have at most.
+            const auto start = MeasuredFace(there, in.exact)
+                                 .depth(evaluate(before, of.exact, point.xi).x, 0., unused);
+            const double taken_out = std::max(adjusted, part * start.value_or(0.));
+            counts -= taken_out;
+            // The gap of a row there would have to be less by it, too. Round-off of surfaces that
+            // touch is no overlap.
+            if (taken_out > Tolerances::touches_at_start * size)
+              worst.adjusted = true;
+          }
+        // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
+        const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
+        const double area = counts > sure ? face_area(slave) : worst.place.area;
+        if (counts > least)
+          samples.push_back({&of.face == &slave ? point.xi : foot, counts - least});
+        // Of samples that are equally deep, as along a ridge, the first: not what round-off
+        // chooses.
+        constexpr double deeper = 1. + 1e-6;
+        if (counts > std::max(least, deeper * worst.place.depth))
+          worst = {{counts, point.x, size, area},
+                   in.face.body,
+                   point.x + in.to_straight_edges(foot),
+                   true,
+                   worst.adjusted,
+                   &of.face == &slave ? point.xi : foot,
+                   {}};
+      }
   }
 
 
@@ -180,15 +177,19 @@ namespace Touchstone
     for (std::size_t i = 0; i < masters.size(); ++i)
       boxes.emplace_back(MeasuredFace::box_around(masters[i], 0.), i);
     const auto tree = pack_rtree(boxes);
+    // Each is near several slave faces that follow each other. More would take memory beside the
+    // preconditioner.
+    constexpr std::size_t              most_sampled = 1000;
+    std::map<std::size_t, SampledFace> sampled;
     // Of each two faces: that a point is behind a face does not say that it lies within the body,
     // and what does not must not hide what does.
     std::vector<Overlap>             found;
     std::vector<std::vector<Sample>> of_found;
     for (const Face &face : slaves)
       {
-        const MeasuredFace slave(face, pair.slave().exact_surface(face));
-        const Box          box = MeasuredFace::box_around(face, slave.size());
-        namespace query        = boost::geometry::index;
+        const SampledFace slave(face, pair.slave().exact_surface(face));
+        const Box         box = MeasuredFace::box_around(face, slave.size());
+        namespace query       = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
           {
             const Face &other = masters[entry.second];
@@ -198,7 +199,10 @@ namespace Touchstone
             // The normal case: most faces only face each other.
             if (exact == nullptr && slave.clear_of(other, Tolerances::touching * slave.size()))
               continue;
-            const MeasuredFace  master(other, exact);
+            if (sampled.size() >= most_sampled)
+              sampled.clear();
+            const SampledFace &master =
+              sampled.try_emplace(entry.second, other, exact).first->second;
             Overlap             worst;
             std::vector<Sample> samples;
             worst.place.size = slave.size();

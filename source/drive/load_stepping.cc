@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/free_memory.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/interruption.h>
 #include <touchstone/base/non_convergence.h>
@@ -104,6 +105,8 @@ namespace Touchstone
         stop(reason, at);
         return;
       }
+    // Beside the preconditioner there is little room for what the checks make.
+    give_back_free_memory();
     // In explicit runs bodies may hit each other's edges at any moment.
     if (problem->cycle_counts() == nullptr)
       for (const auto check : {unheld_edges, turned_surfaces, narrow_contact})

@@ -51,6 +51,12 @@ namespace Touchstone
         motion.clear();
       }
 
+      bool
+      follows_supports() const override
+      {
+        return !failed;
+      }
+
       void
       balance(const Vector &, const Vector &external, const Vector &internal, Vector &sum) override
       {
@@ -114,15 +120,17 @@ namespace Touchstone
         else
           motion = Vector(solid.zero_vector());
         motion_of_step.clear();
+        failed = false;
         TimeIntegration::commit();
       }
 
       void
       rollback() override
       {
-        // The extrapolation may be what made the step fail: its repetition starts at the committed
+        // The first guess may be what made the step fail: its repetition starts at the committed
         // state.
         motion = Vector(solid.zero_vector());
+        failed = true;
       }
 
     private:
@@ -135,6 +143,8 @@ namespace Touchstone
        * step.
        */
       Vector motion;
+      /** The last attempt at this step has failed. */
+      bool failed = false;
       /** Displacement of the step that end_step() has seen, length; empty once it is committed. */
       Vector motion_of_step;
     };

@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/points_in_faces.h>
+#include <touchstone/drive/driven_bodies.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
@@ -141,6 +142,8 @@ namespace Touchstone
     pretension.begin_step(t);
     tools.begin_step(t);
     integration->begin_step(time, u);
+    if (integration->follows_supports())
+      move_driven_bodies(boundary_conditions, contact, solid, time, u);
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();

@@ -4,7 +4,7 @@
 #define touchstone_contact_missed_contact_h
 
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/geometry/sampled_face.h>
 #include <touchstone/contact/pairing/material_point.h>
 
 #include <vector>
@@ -132,8 +132,8 @@ namespace Touchstone
     /** Take the deepest point of one face within another, if it is deeper than @p worst, and add
      * all of them to @p samples. */
     void
-    add_points(const MeasuredFace  &of,
-               const MeasuredFace  &in,
+    add_points(const SampledFace   &of,
+               const SampledFace   &in,
                const Face          &slave,
                Overlap             &worst,
                std::vector<Sample> &samples) const;

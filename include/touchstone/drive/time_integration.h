@@ -119,6 +119,14 @@ namespace Touchstone
     virtual void
     begin_step(double t, Vector &u) = 0;
 
+    /** @brief Whether the first guess of a step may have bodies where their supports move them
+     * (move_driven_bodies()). */
+    virtual bool
+    follows_supports() const
+    {
+      return false;
+    }
+
     /** @brief All forces on the nodes but those of contact, force. */
     virtual void
     balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum) = 0;

@@ -80,6 +80,21 @@ namespace Touchstone
     static Face
     in_reference(const Face &face);
 
+  protected:
+    /** @brief The normal in the middle. */
+    const dealii::Tensor<1, dim> &
+    axis() const
+    {
+      return normal;
+    }
+
+    /** @brief Distance of a point from the line along axis() through the middle; length. */
+    double
+    from_axis(const dealii::Point<dim> &x) const
+    {
+      return cross_product_3d(x - centre.x, normal).norm();
+    }
+
   private:
     const FaceGeometry           geometry;
     const FacePoint              centre;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/drive/driven_bodies.h>
+#include <touchstone/solid/bodies.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+// First guesses of steps for bodies that supports move as they are (doc/theory.md 5).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Number of values of a body: sum of d (x) d, of d times the missing displacement. */
+    constexpr unsigned int n_sums = dim * dim + dim;
+
+    /** The translation v of least length with d . v closest to what is missing in the directions d
+     * of the supports; that along directions in which nothing is prescribed is zero. */
+    Tensor<1, dim>
+    closest_translation(const double *sums)
+    {
+      SymmetricTensor<2, dim> directions;
+      Tensor<1, dim>          missing;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          missing[i] = sums[dim * dim + i];
+          for (unsigned int j = 0; j <= i; ++j)
+            directions[i][j] = sums[dim * i + j];
+        }
+      constexpr double prescribed = 1e-10;
+      const auto       axes       = eigenvectors(directions);
+      Tensor<1, dim>   result;
+      for (const auto &[value, axis] : axes)
+        if (value > prescribed * axes[0].first)
+          result += (axis * missing) / value * axis;
+      return result;
+    }
+
+
+
+    /** What a support misses at time @p t in the displacement @p u, length. */
+    double
+    missing(const BoundaryConditions::Prescribed &support, const double t, const Vector &u)
+    {
+      double result = support.displacement(t);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (support.direction[d] != 0.)
+          result -= support.direction[d] * u(dim * support.node + d);
+      return result;
+    }
+
+
+
+    /** The translation of each body; zero if none brings it to its supports. Collective. */
+    std::vector<Tensor<1, dim>>
+    driven_motions(const BoundaryConditions &conditions,
+                   const Solid              &solid,
+                   const double              t,
+                   const Vector             &u)
+    {
+      std::vector<double> sums(n_sums * solid.n_bodies());
+      for (const auto &support : conditions.prescribed_directions())
+        {
+          double *const sum  = &sums[n_sums * support.body];
+          const double  miss = missing(support, t, u);
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              for (unsigned int j = 0; j < dim; ++j)
+                sum[dim * i + j] += support.direction[i] * support.direction[j];
+              sum[dim * dim + i] += support.direction[i] * miss;
+            }
+        }
+      Utilities::MPI::sum(sums, solid.communicator, sums);
+      std::vector<Tensor<1, dim>> motions;
+      for (unsigned int body = 0; body < solid.n_bodies(); ++body)
+        motions.push_back(closest_translation(&sums[n_sums * body]));
+      // What the supports of a body miss at most before and after.
+      std::vector<double> misses(2 * solid.n_bodies());
+      for (const auto &support : conditions.prescribed_directions())
+        {
+          const double  miss  = missing(support, t, u);
+          double *const worst = &misses[2 * support.body];
+          worst[0]            = std::max(worst[0], std::abs(miss));
+          worst[1] = std::max(worst[1], std::abs(miss - support.direction * motions[support.body]));
+        }
+      Utilities::MPI::max(misses, solid.communicator, misses);
+      constexpr double round_off = 1e-10;
+      for (unsigned int body = 0; body < solid.n_bodies(); ++body)
+        if (misses[2 * body + 1] > round_off * misses[2 * body])
+          motions[body] = 0.;
+      return motions;
+    }
+
+
+
+    /** By how much motions close gaps beyond zero, in sizes of the slave faces. Collective. */
+    double
+    deepest_overlap(const Contact &contact, const std::vector<Tensor<1, dim>> &motions)
+    {
+      double result = 0.;
+      for (const ContactRow &row : contact.rows())
+        if (row.has_partner)
+          {
+            Tensor<1, dim> closing = -motions[row.body];
+            if (!row.stencil.empty())
+              closing += motions[row.master_body];
+            result = std::max(result, (closing * row.normal - std::max(row.gap, 0.)) / row.size);
+          }
+      return Utilities::MPI::max(result, contact.communicator());
+    }
+  } // namespace
+
+
+
+  void
+  move_driven_bodies(const BoundaryConditions &conditions,
+                     const Contact            &contact,
+                     const Solid              &solid,
+                     const double              t,
+                     Vector                   &u)
+  {
+    const auto motions = driven_motions(conditions, solid, t, u);
+    if (std::all_of(motions.begin(),
+                    motions.end(),
+                    [](const Tensor<1, dim> &motion) { return motion.norm_square() == 0.; }) ||
+        deepest_overlap(contact, motions) > 1.)
+      return;
+    const auto bodies = bodies_of_unknowns(solid);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      u.begin()[k] += motions[bodies[k]][solid.owned.nth_index_in_set(k) % dim];
+  }
+} // namespace Touchstone
