@@ -56,7 +56,7 @@ namespace Touchstone
       bool
       factorises(const int n_dofs) const override
       {
-        return n_dofs < many_dofs;
+        return n_dofs < many_dofs || parameters.prefers_factors(n_dofs);
       }
 
       void
@@ -84,7 +84,7 @@ namespace Touchstone
       bool
       iterates(const int n_dofs) const
       {
-        return !strikes.out() && n_dofs >= many_dofs;
+        return !strikes.out() && n_dofs >= many_dofs && !parameters.prefers_factors(n_dofs);
       }
 
       /**
@@ -119,6 +119,8 @@ namespace Touchstone
         bool      solved = false;
         if (!system.definite && n_dofs >= many_dofs)
           remark("linear solver: MUMPS, for multigrid cannot solve a system with multipliers");
+        else if (n_dofs >= many_dofs && parameters.prefers_factors(n_dofs))
+          remark("linear solver: MUMPS, for " + parameters.incompressibility());
         else if (iterates(n_dofs))
           solved = try_to_iterate(system, motions, solution);
         if (!solved)

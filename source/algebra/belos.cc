@@ -29,12 +29,6 @@ namespace Touchstone
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
 
     /**
-     * Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
-     * factors in systems of up to so many dofs, whose factors take some GB of memory.
-     */
-    constexpr int factorisable = 200000;
-
-    /**
      * Restarted GMRES, preconditioned from the right, so that the residual that
      * it minimises is the true one, and flexible: multigrid in single precision is a linear
      * operator only up to its round-off, below which the residual could not fall otherwise.
@@ -139,6 +133,18 @@ namespace Touchstone
       /** Iterations above which multigrid is too slow for the system. */
       double
       patience(const CondensedSystem &system) const;
+
+      /** Whether the system is small enough for factors. */
+      bool
+      factorisable(const CondensedSystem &system) const
+      {
+        return static_cast<unsigned int>(system.rows().NumGlobalElements()) <=
+               parameters.factorise_up_to;
+      }
+
+      /** Take factors from the start where the materials are known to make multigrid slow. */
+      void
+      choose(const CondensedSystem &system);
 
       /** One run of the method, from zero. @param solution Zero. @return iterations, -1 if it
        * failed.
@@ -269,6 +275,26 @@ namespace Touchstone
 
 
 
+    // The automatic solver asks for iterations in larger systems only.
+    void
+    BelosSolver::choose(const CondensedSystem &system)
+    {
+      if (!preconditioner_maker->multilevel() || !parameters.nearly_incompressible())
+        return;
+      if (parameters.prefers_factors(system.rows().NumGlobalElements()))
+        {
+          remark(parameters.type + ": " + parameters.incompressibility() +
+                 "; factors of MUMPS take its place");
+          slow = true;
+          strikes.failed(true);
+        }
+      else
+        remark(parameters.type + ": " + parameters.incompressibility() +
+               "; the system is too large for factors in its place ('Factorise up to')");
+    }
+
+
+
     double
     BelosSolver::patience(const CondensedSystem &system) const
     {
@@ -276,8 +302,8 @@ namespace Touchstone
         return ConvergenceWatch::endless;
       if (parameters.patience > 0)
         return parameters.patience;
-      const int n = system.rows().NumGlobalElements();
-      return n <= factorisable ? ConvergenceWatch::patience(n) : ConvergenceWatch::endless;
+      return factorisable(system) ? ConvergenceWatch::patience(system.rows().NumGlobalElements())
+                                  : ConvergenceWatch::endless;
     }
 
 
@@ -385,6 +411,7 @@ namespace Touchstone
       // The rigid motions are those of the displacements: other numbers of rows mean multipliers.
       if (motions.position.Map().NumGlobalElements() != system.rows().NumGlobalElements())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
+      choose(system);
       int iterations = 0;
       try
         {
@@ -393,7 +420,7 @@ namespace Touchstone
       catch (const SlowConvergence &slowness)
         {
           // The automatic solver has its own factors, and a large system has none.
-          if (parameters.patience > 0 || system.rows().NumGlobalElements() > factorisable)
+          if (parameters.patience > 0 || !factorisable(system))
             throw LinearSolverFailure(parameters.type + ": " + slowness.what());
           if (!std::exchange(told, true))
             remark(parameters.type + ": " + slowness.what() +

@@ -84,6 +84,20 @@ namespace Touchstone
 
 
 
+  // In the units s the diagonal of such a row is s^2 A_pp = s K_pp. Those that have the scale one
+  // count in full already.
+  void
+  CondensedSystem::correct_elongations(const Epetra_Vector &rest, Epetra_Vector &solution) const
+  {
+    if (!units)
+      return;
+    for (unsigned int i = 0; i < dim * system.stiffness->n_nodes(); ++i)
+      if (changed[i] && (*units)[i] < 1.)
+        solution[i] += rest[i] / ((*units)[i] * system.stiffness->diagonal(i));
+  }
+
+
+
   // The scales s = K_pp / A_pp of elongation dofs (doc/theory.md, section 7, equation (23)).
   // A_pp, the diagonal of the condensed matrix, is the stiffness of the continuum and that of the
   // springs. Without the scale a stiff spring (penalty) dominates the residual norm by which a

@@ -124,5 +124,6 @@ namespace Touchstone
     if (!(residual <= std::max(10. * system.tolerance, 1e-6)))
       throw LinearSolverFailure("the linear solver " + parameters.type +
                                 " left a true relative residual of " + std::to_string(residual));
+    system.correct_elongations(rest, solution);
   }
 } // namespace Touchstone

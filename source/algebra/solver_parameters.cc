@@ -5,7 +5,9 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/parameter_checks.h>
 
+#include <cmath>
 #include <sstream>
+#include <string>
 
 // Section 'Linear solver' of the input file. Keys of single solvers and preconditioners are
 // declared by these (LinearSolverOptionsRegistry), and keys that have no effect with the chosen
@@ -76,6 +78,34 @@ namespace Touchstone
 
 
 
+  bool
+  LinearSolverParameters::nearly_incompressible() const
+  {
+    // Poisson's ratio 0.485. The table in doc/solvers.md has what multigrid and factors take on
+    // both sides of it.
+    constexpr double much = 33.;
+    return bulk_over_shear > much;
+  }
+
+
+
+  bool
+  LinearSolverParameters::prefers_factors(const int n_dofs) const
+  {
+    return nearly_incompressible() && static_cast<unsigned int>(n_dofs) <= factorise_up_to;
+  }
+
+
+
+  std::string
+  LinearSolverParameters::incompressibility() const
+  {
+    return "multigrid takes many iterations near incompressibility (bulk over shear modulus " +
+           std::to_string(std::lround(bulk_over_shear)) + ")";
+  }
+
+
+
   // What a type of solver can do is the solver's own knowledge: one is made to be asked, which
   // costs nothing before its first solve.
   bool
@@ -121,6 +151,12 @@ namespace Touchstone
                       preconditioner,
                       "Of Belos CG or GMRES. " + PreconditionerRegistry::documentation(),
                       Patterns::Selection(PreconditionerRegistry::selection()));
+    prm.add_parameter("Factorise up to",
+                      factorise_up_to,
+                      "Unknowns of a system up to which factors of MUMPS take the place of "
+                      "multigrid where this is slow: as the preconditioner of Belos CG and GMRES, "
+                      "and near incompressibility in 'automatic'. [no unit]",
+                      Patterns::Integer(0));
     contact_operator.declare(prm,
                              "Contact operator",
                              "How an iterative solver multiplies: 'applied' applies constraints "

@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/drive/informed_solver.h>
 #include <touchstone/drive/model_report.h>
 #include <touchstone/output/progress.h>
 #include <touchstone/scene/pair_input.h>
@@ -165,7 +166,8 @@ namespace Touchstone
         const bool factors =
           scene.linear_solver.type == "MUMPS" ||
           (scene.linear_solver.type == "automatic" &&
-           (n < 10000. || scene.contact.enforcement.name == "lagrange multipliers"));
+           (n < 10000. || informed_solver(scene).prefers_factors(static_cast<int>(n)) ||
+            scene.contact.enforcement.name == "lagrange multipliers"));
         megabytes += factors ? 107. * std::pow(n / 12000., 1.25) : 2.15e-3 * n;
         seconds = factors ? 0.2 * std::pow(n / 12000., 1.67) : 4e-6 * n;
         if (!solid.linear())

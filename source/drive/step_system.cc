@@ -5,6 +5,7 @@
 #include <touchstone/base/reduction.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/drive/informed_solver.h>
 #include <touchstone/drive/step_system.h>
 
 #include <deal.II/base/mpi.h>
@@ -23,7 +24,8 @@ namespace Touchstone
 
   StepSystem::StepSystem(const Parts &parts)
     : parts(parts)
-    , solver(LinearSolverRegistry::make(parts.scene.linear_solver.type, parts.scene.linear_solver))
+    , solver(
+        LinearSolverRegistry::make(parts.scene.linear_solver.type, informed_solver(parts.scene)))
     , modes(parts.solid)
     , length(Utilities::MPI::min(GridTools::minimal_cell_diameter(
                                    parts.solid.dof_handler.get_triangulation()),

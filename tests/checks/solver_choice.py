@@ -3,7 +3,7 @@
 stiff springs and on two ranks, and what takes its place where it is slow."""
 # ctest: goldens = nearly_incompressible_degree_2
 
-from touchstone_test import (AUGMENTED, CG, FACTOR, STEPS, below, check, finish, golden, prm,
+from touchstone_test import (AUGMENTED, CG, FACTOR, GMRES, STEPS, below, check, finish, golden, prm,
                              run, same, tests)
 
 
@@ -49,6 +49,17 @@ friction = tubes("friction", 1, {"Contact pair cone/Behaviour": "coulomb",
 check(friction.count("factorisations") == 0, "large systems with friction are factorised")
 below("friction, iterations", friction.iterations("linear_mean"), 15)
 
+# Springs of friction, too: forces of stiff ones were out of balance after a solve, nodes left the
+# contact, and the next solves took up to 27 iterations.
+for factor in 1, 1000:
+    stuck = tubes(f"stuck_{factor}", 1,
+                  {**AUGMENTED, STEPS: 4, "Contact/Friction": "regularised",
+                   "Contact/Penalty factor": factor, "Contact pair cone/Behaviour": "coulomb",
+                   "Contact pair cone/Friction/Coefficient": 0.2})
+    below(f"{stuck}, iterations of a solve", max(stuck.solves()), 20)
+# Soft ones need more Newton iterations until gaps close.
+below(f"{stuck}, Newton iterations", stuck.iterations(), 22)
+
 # Near incompressibility multigrid would take 462 iterations a solve.
 thick = golden("nearly_incompressible_degree_2")
 check(thick.count("factorisations") > 0, "thick: MUMPS is not chosen")
@@ -56,8 +67,29 @@ for solver in "CG", "GMRES":
     result = run(f"thick_{solver}", tests / "nearly_incompressible_degree_2.prm",
                  {"Linear solver/Type": f"Belos {solver}"})
     below(f"{result}, iterations", result.iterations("linear_mean"), 60)
-    result.says("multigrid would take")
+    result.says("multigrid takes many iterations near incompressibility")
     same(result, thick, 1e-7)
+
+# Hertz contact near incompressibility: the first solve took 146 iterations before factors took the
+# place of multigrid.
+ball = {**{f"Body {body}/{key}": value for body in ("ball", "block")
+           for key, value in (("Element", "b-bar"), ("Material/Poisson ratio", 0.4999))},
+        "Output/VTU interval": 0}
+chosen = run("ball", prm / "hertz_sphere.prm", ball)
+chosen.says("linear solver: MUMPS, for multigrid takes many iterations near incompressibility")
+check(chosen.iterations("linear_total") == 0, "iterations where factors are the better choice")
+for solver in CG, GMRES:
+    result = run(f"ball_{solver['Linear solver/Type']}", prm / "hertz_sphere.prm",
+                 {**ball, **solver})
+    result.says("factors of MUMPS take its place")
+    below(f"{result}, iterations of a solve", max(result.solves()), 40)
+    same(result, chosen, 1e-7)
+# Systems that are too large for factors keep multigrid, with a remark.
+kept = run("kept", prm / "hertz_sphere.prm",
+           {**ball, **CG, FACTOR: 0.5, "Linear solver/Factorise up to": 0,
+            "Body ball/Material/Poisson ratio": 0.49, "Body block/Material/Poisson ratio": 0.49})
+kept.says("too large for factors")
+check(kept.count("factorisations") == 0, "factors beyond 'Factorise up to'")
 
 # The diagonal has the same solution, of many more iterations.
 diagonal = tubes("diagonal", 0.75, {**CG, "Linear solver/Preconditioner": "diagonal"})

@@ -162,6 +162,12 @@ class Run:
         """What summary.json counts."""
         return self.value("counts", name)
 
+    def solves(self):
+        """Iterations of each linear solve, of the rows of the log; none of direct ones."""
+        rows = (line.split() for line in self.log.splitlines())
+        return [int(row[5]) for row in rows
+                if len(row) == 6 and row[0].isdigit() and row[5].isdigit()]
+
     @property
     def log(self):
         """Text of the log."""

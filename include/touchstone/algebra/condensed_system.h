@@ -82,6 +82,20 @@ namespace Touchstone
     void
     expand(const Epetra_Vector &solution, Vector &displacement) const;
 
+    /**
+     * @brief Correct the elongations of springs (LinearSystem::basis_change) by their own
+     * equations, in one step of Jacobi's method.
+     *
+     * The residual by which iterations stop has these equations in the units s of the elongations,
+     * so that the forces of stiff springs are left out of balance by 1/s times as much; and a node
+     * whose force comes out as a pull leaves the contact. The other equations notice s times as
+     * little of the correction.
+     *
+     * @param rest Residual of @p solution.
+     */
+    void
+    correct_elongations(const Epetra_Vector &rest, Epetra_Vector &solution) const;
+
     std::unique_ptr<Epetra_Vector> rhs;
     /** Marks rows of constrained dofs, in the order of the local rows. */
     std::vector<bool> constrained;

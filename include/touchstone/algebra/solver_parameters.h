@@ -39,6 +39,12 @@ namespace Touchstone
     /** Not a key of the input: an iterative solver fails as soon as it is expected to take more
      * iterations than these; 0: no limit of this kind. */
     unsigned int patience = 0;
+    /** Unknowns up to which factors take the place of multigrid where that is slow: they take some
+     * GB of memory. */
+    unsigned int factorise_up_to = 200000;
+    /** Not a key of the input: the largest ratio of bulk to shear modulus among the materials,
+     * where nothing but their stiffness is in the system; 0: no such system. */
+    double bulk_over_shear = 0.;
     /** How iterative solvers multiply: factor by factor, or with the assembled matrix. */
     enum class ContactOperator
     {
@@ -58,6 +64,19 @@ namespace Touchstone
     {
       return dynamic_cast<const Options &>(*options.at(name));
     }
+
+    /** @brief Whether the materials are so nearly incompressible that multigrid needs more
+     * iterations than factors are worth (doc/solvers.md). */
+    bool
+    nearly_incompressible() const;
+
+    /** @brief The same, of a system that is small enough for factors. */
+    bool
+    prefers_factors(int n_dofs) const;
+
+    /** @brief What the log says of nearly_incompressible() materials. */
+    std::string
+    incompressibility() const;
 
     /** @brief What the solver of this type can do (LinearSolver). */
     bool
