@@ -201,6 +201,8 @@ namespace Touchstone
         // Before the search: a row in contact leaves an edge of the master surface later than an
         // open one arrives there, or it would alternate (doc/theory.md 5, "Cycles").
         row.was_active = active(row);
+        row.touched    = row.touches;
+        row.touches    = 0;
         // Current positions; the ghosted displacement also holds the owned dofs.
         for (unsigned int d = 0; d < dim; ++d)
           row.position[d] = ghosted(dim * row.slave + d);

@@ -286,6 +286,7 @@ namespace Touchstone
           present[k] = best[k]->contact;
           keys[k]    = present[k]->master_key();
           present[k]->set(row);
+          row.touches = *keys[k];
         }
     }
 
