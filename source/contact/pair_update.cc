@@ -35,7 +35,11 @@ namespace Touchstone
         point_rows->update(*pairing_method, time, present);
         for (std::size_t k = 0; k < present.size(); ++k)
           if (ContactRow &row = present[k]; row.between_nodes && row.has_partner)
-            row.moved = row.motion.since(committed[k].motion, contact_point(row));
+            {
+              row.moved = row.motion.since(committed[k].motion, contact_point(row));
+              if (row.tangents)
+                pairing_method->give_to_point(k);
+            }
       }
     ++searches;
     // Only once, with the bodies as they are placed: later on surfaces may well separate.
@@ -201,6 +205,8 @@ namespace Touchstone
         // Before the search: a row in contact leaves an edge of the master surface later than an
         // open one arrives there, or it would alternate (doc/theory.md 5, "Cycles").
         row.was_active = active(row);
+        row.touched    = row.touches;
+        row.touches    = 0;
         // Current positions; the ghosted displacement also holds the owned dofs.
         for (unsigned int d = 0; d < dim; ++d)
           row.position[d] = ghosted(dim * row.slave + d);

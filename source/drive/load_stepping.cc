@@ -274,8 +274,9 @@ namespace Touchstone
     std::ostringstream more;
     more << "; the attempt with twice the step failed in the same way, with residual "
          << last_state.residual << ", gap " << last_state.gap << ", " << last_state.active
-         << " active rows and " << last_state.changes
-         << " that changed, so that smaller steps cannot help. Other choices take other paths: "
+         << " active rows and " << last_state.changes << " that changed"
+         << exchanges_in_words(last_state)
+         << ", so that smaller steps cannot help. Other choices take other paths: "
             "'Contact/Enforcement', 'Pairing' of the pair, another mesh, slave and master "
             "exchanged";
     if (scene.has_friction())

@@ -112,6 +112,17 @@ namespace Touchstone
 
 
 
+  std::string
+  exchanges_in_words(const NewtonState &state)
+  {
+    return state.exchanges == 0
+             ? ""
+             : ", " + std::to_string(state.exchanges) +
+                 " went from a face, edge or vertex of the master to another one, or to none";
+  }
+
+
+
   unsigned int
   Newton::solve(NonlinearProblem &problem, const Observer &observer, const unsigned int least) const
   {
@@ -162,7 +173,7 @@ namespace Touchstone
         if (state.changes > 0 && !seen.insert(state.signature).second &&
             ++damping > 2 + parameters.maximum_iterations / 4)
           throw ActiveSetCycle("the active set cycles: " + std::to_string(state.changes) +
-                               " rows keep changing their state");
+                               " rows keep changing their state" + exchanges_in_words(state));
         line_search.start_from(state);
         problem.linearize();
         linear = problem.solve();
@@ -171,7 +182,7 @@ namespace Touchstone
     std::ostringstream text;
     text << "no convergence in " << n_iterations << " Newton iterations: residual "
          << state.residual << ", gap " << state.gap << ", " << state.changes
-         << " contact rows changed"
+         << " contact rows changed" << exchanges_in_words(state)
          << (state.prescribed ? "" : ", prescribed displacements not met");
     throw NewtonFailure(text.str());
   }

@@ -157,13 +157,13 @@ namespace Touchstone
 
 
   std::string
-  StepProblem::changing_place() const
+  StepProblem::place_of_first(const RowPlaces &rows, const std::string &how) const
   {
-    // Of all changing rows the one with the smallest position in lexicographic order is named: row
+    // Of all such rows the one with the smallest position in lexicographic order is named: row
     // numbers depend on the partition, positions do not. RepeatedFailure compares this text between
     // attempts.
     std::vector<double> first;
-    for (const auto &row : changed_rows)
+    for (const auto &row : rows)
       if (first.empty() ||
           std::lexicographical_compare(row.begin(), row.end(), first.begin(), first.end()))
         first.assign(row.begin(), row.end());
@@ -171,7 +171,7 @@ namespace Touchstone
     if (first.empty())
       return "";
     const auto &pair = scene.pairs[static_cast<unsigned int>(first[dim])];
-    return "rows of pair '" + pair.name + "' that change, one of them at " +
+    return "rows of pair '" + pair.name + "' that " + how + ", one of them at " +
            readable({first[0], first[1], first[2]}) + " of body '" + pair.slave_body + "'";
   }
 
@@ -180,8 +180,11 @@ namespace Touchstone
   std::string
   StepProblem::worst_place() const
   {
-    if (const std::string changing = changing_place(); !changing.empty())
-      return changing;
+    const std::string changing = place_of_first(changed_rows, "change"),
+                      exchanging =
+                        place_of_first(exchanged_rows, "touch now one thing and then another");
+    if (!changing.empty() || !exchanging.empty())
+      return changing + (changing.empty() || exchanging.empty() ? "" : ", and ") + exchanging;
     // What supports carry is not out of balance.
     Vector free(unbalanced);
     system->remove_supported(free);

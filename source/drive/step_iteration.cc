@@ -133,15 +133,28 @@ namespace Touchstone
   {
     const ActiveSetUpdate set = contact.enforcement().update_active_set(
       contact, scene.newton.gap_tolerance, damping, balanced(state, scene.newton));
-    changed_rows.clear();
-    for (const ContactRow *row : set.changed)
-      changed_rows.push_back(
-        {{row->reference[0], row->reference[1], row->reference[2], double(row->pair)}});
+    const auto places = [](const std::vector<const ContactRow *> &rows) {
+      RowPlaces result;
+      for (const ContactRow *row : rows)
+        result.push_back(
+          {{row->reference[0], row->reference[1], row->reference[2], double(row->pair)}});
+      return result;
+    };
+    changed_rows = places(set.changed);
+    // Rows that go to and fro, with an active set that does so more slowly, may rest in between.
+    constexpr unsigned int few = 8;
+    if (set.exchanges > 0 || ++exchanged_since > few)
+      {
+        exchanged_rows  = places(set.exchanged);
+        exchanges       = set.exchanges;
+        exchanged_since = 0;
+      }
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
     state.judged    = set.judged;
     state.signature = set.signature;
+    state.exchanges = exchanges;
   }
 
 

@@ -147,6 +147,8 @@ namespace Touchstone
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
+    exchanged_rows.clear();
+    exchanges = exchanged_since = 0;
     forcing_term.begin_step();
     system->begin_step();
     boundary_conditions.external_force(time, u, external);

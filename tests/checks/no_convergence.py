@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
-on disk; and names the law of a material that gives way, ties that contradict each other, and bodies that start
-to slide."""
+on disk; and names the law of a material that gives way, ties that contradict each other, bodies that start
+to slide, and rows that go from one face of the master to another."""
 # ctest: label = quick
 
 import re
@@ -46,4 +46,11 @@ failed = run("starts_to_slide", checks / "starts_to_slide.prm", fails=True)
 for reason in ("'up' has moved by", " in x on average in this step", "starts to slide as a whole",
                "'Time integration/Scheme = newmark'"):
     check(reason in failed.summary["failure"], f"summary.json does not say \"{reason}\"")
+# All nine nodes go one face on in the first iteration of the second step, and the fifth is not the last: how many have, and
+# where, on any number of ranks. Rows that change from open to active or back are others.
+for ranks in 1, 2:
+    failed = run(f"next_face_{ranks}", checks / "block_one_face_on.prm", ranks=ranks, fails=True)
+    for reason in ("0 contact rows changed, 9 went from a face, edge or vertex of the master to another one",
+                   "rows of pair 'c' that touch now one thing and then another, one of them at (0.4, 0.4, 0) of body 'up'"):
+        check(reason in failed.summary["failure"], f"{failed}: {failed.summary['failure']}")
 finish()

@@ -96,6 +96,9 @@ namespace Touchstone
     /** @{ */
     /** A master face is within reach. Where there is none, the rest has no meaning. */
     bool has_partner = false;
+    /** A number of the face, edge or vertex of the master that it touches, in this update and in
+     * the one before, for messages; zero where there is none, and of means over several faces. */
+    std::uint64_t touches = 0, touched = 0;
     /** Master nodes and their weights; may be owned by any rank. Slave nodes of partly covered
      * faces whose basis functions are aggregated with that of this row are among them, with
      * negative weights (doc/theory.md 3.1, equation (5)), and so are those of rows between nodes.
@@ -164,6 +167,14 @@ namespace Touchstone
   contact_point(const ContactRow &row)
   {
     return row.position + row.lever - row.gap_vector / row.share;
+  }
+
+  /** @brief Whether a row that was active has lost what it touched in the update before, or touches
+   * something else. */
+  inline bool
+  exchanged(const ContactRow &row)
+  {
+    return row.was_active && (!row.has_partner || row.touches != row.touched);
   }
 
   /** @brief Whether a row with a derivative changes so fast that the derivative is not valid over

@@ -32,6 +32,9 @@ namespace Touchstone
     unsigned int  changes   = 0;
     bool          judged    = true;
     std::uint64_t signature = 0;
+    /** Active rows that touch another face, edge or vertex of the master than in the iteration
+     * before, or none any more: in the last of a few iterations in which there were any. */
+    unsigned int exchanges = 0;
     /** Part of the last increment that was taken; no unit. */
     double fraction = 1.;
   };
@@ -42,6 +45,10 @@ namespace Touchstone
   {
     return state.residual <= std::max(parameters.residual_tolerance, state.round_off);
   }
+
+  /** @brief What NewtonState::exchanges says, to be appended to a message; empty without any. */
+  std::string
+  exchanges_in_words(const NewtonState &state);
 
   /** @brief Interface of a problem to Newton's method. */
   class NonlinearProblem

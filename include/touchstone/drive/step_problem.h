@@ -148,9 +148,13 @@ namespace Touchstone
     /** Counts of the problems before changes of the mesh. */
     LinearSolverCounts earlier;
     unsigned int       earlier_searches = 0;
-    /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
-     * (x, y, z, pair). */
-    std::vector<std::array<double, dim + 1>> changed_rows;
+    /** Reference positions and pairs of rows of this rank, as (x, y, z, pair). */
+    using RowPlaces = std::vector<std::array<double, dim + 1>>;
+    /** Those that changed in the last residual(), and those that exchanged() what they touch in the
+     * last of a few in which any did: what goes to and fro need not do so in each. */
+    RowPlaces changed_rows, exchanged_rows;
+    /** Of all ranks, and since how many calls of residual(). */
+    unsigned int exchanges = 0, exchanged_since = 0;
     /** Active rows of the committed state, by pair. */
     std::vector<unsigned int> committed_active;
     /** Scale of the forces that act, at present and the largest of all committed states; zero
@@ -200,9 +204,10 @@ namespace Touchstone
      * all; in words, empty if there are none. Collective. */
     std::string
     stick_of_held_nodes() const;
-    /** See worst_place(); empty if no row changed. */
+    /** See worst_place(): rows that change in the way @p how, and where the first of them is; empty
+     * if there are none. Collective. */
     std::string
-    changing_place() const;
+    place_of_first(const RowPlaces &rows, const std::string &how) const;
     /** @throws ExcessiveIncrement */
     void
     check_increment() const;

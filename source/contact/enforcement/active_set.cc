@@ -290,6 +290,8 @@ namespace Touchstone
     for (const ContactRow &row : rows)
       {
         RowState &state = row_states[row];
+        if (exchanged(row))
+          result.exchanged.push_back(&row);
         if (state.status == ContactStatus::no_partner)
           {
             if (state.lambda != 0. || state.force.norm() != 0.)
@@ -318,15 +320,18 @@ namespace Touchstone
           }
       }
     after_solve          = false;
-    std::uint64_t active = result.active, changes = result.changes;
-    Reduction     all;
+    std::uint64_t active = result.active, changes = result.changes,
+                  exchanges = result.exchanged.size();
+    Reduction all;
     all.max(result.gap);
     all.sum(active);
     all.sum(changes);
+    all.sum(exchanges);
     all.sum(result.signature);
     all.over(communicator);
-    result.active  = active;
-    result.changes = changes;
+    result.active    = active;
+    result.changes   = changes;
+    result.exchanges = exchanges;
     return result;
   }
 } // namespace Touchstone

@@ -86,6 +86,7 @@ namespace Touchstone
   {
     const MaterialPoint &p = *point.point;
     row.has_partner        = true;
+    row.touches            = there.touches;
     row.share              = 1. / p.weights[p.slave];
     row.normal             = there.normal;
     row.gap_vector         = row.share * there.gap_vector;

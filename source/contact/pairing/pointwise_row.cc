@@ -68,7 +68,8 @@ namespace Touchstone
     });
     if (!partner.others.empty())
       row.normal /= row.normal.norm();
-    row.gap = row.gap_vector * row.normal;
+    row.gap     = row.gap_vector * row.normal;
+    row.touches = partner.face->key;
   }
 
 

@@ -51,6 +51,9 @@ namespace Touchstone
     double gap = 0.;
     /** Rows of this rank whose status has changed. */
     std::vector<const ContactRow *> changed;
+    /** Rows of this rank that have exchanged() what they touch, and how many of all ranks. */
+    std::vector<const ContactRow *> exchanged;
+    unsigned int                    exchanges = 0;
   };
 
   /**
