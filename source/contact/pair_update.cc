@@ -35,11 +35,7 @@ namespace Touchstone
         point_rows->update(*pairing_method, time, present);
         for (std::size_t k = 0; k < present.size(); ++k)
           if (ContactRow &row = present[k]; row.between_nodes && row.has_partner)
-            {
-              row.moved = row.motion.since(committed[k].motion, contact_point(row));
-              if (row.tangents)
-                pairing_method->give_to_point(k);
-            }
+            row.moved = row.motion.since(committed[k].motion, contact_point(row));
       }
     ++searches;
     // Only once, with the bodies as they are placed: later on surfaces may well separate.

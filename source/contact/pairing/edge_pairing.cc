@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 // Rows for what touches between slave nodes: edges that cross, and vertices of the master in slave
 // faces (doc/theory.md 4.2). They are added to those of another pairing, whichever that is. Where
@@ -61,23 +60,13 @@ namespace Touchstone
         of_nodes->begin_step();
         if (on_edges)
           on_edges->decisions().begin_step();
-        arrived.clear();
-        holds_change = true;
       }
 
       bool
       leave_edges() override
       {
         const bool first = of_nodes->leave_edges();
-        const bool left  = on_edges && on_edges->decisions().leave();
-        return arrive() || left || first;
-      }
-
-      void
-      give_to_point(const std::size_t k) override
-      {
-        present[k - n].reset();
-        keys[k - n].reset();
+        return (on_edges && on_edges->decisions().leave()) || first;
       }
 
       void
@@ -156,13 +145,6 @@ namespace Touchstone
       std::vector<std::optional<std::uint64_t>> keys;
       /** No update has come since the step began. */
       bool step_begins = true;
-      /** Of nodes of this rank, with the edges and vertices that they touched when the step began,
-       * and vertices that have been found to press in states of balance since. */
-      std::vector<std::pair<Index, std::uint64_t>> in_contact, arrived;
-      /** Whether the search does not know them yet; the same on all ranks. */
-      bool holds_change = true;
-      /** Vertices that arrived() may come to have, by the number of the node: the deepest. */
-      std::map<std::size_t, FoundBetweenNodes> arriving;
 
       /** Call a function of the other pairing for its rows, which are the first. */
       template <class Function>
@@ -185,12 +167,6 @@ namespace Touchstone
       }
 
       void
-      tell_search(const std::vector<ContactRow> &rows);
-      void
-      set_arriving(std::vector<FoundBetweenNodes> &found, const std::vector<ContactRow> &rows);
-      bool
-      arrive();
-      void
       drop_covered(const std::vector<ContactRow> &rows, std::vector<FoundBetweenNodes> &found);
       void
       choose(const std::vector<FoundBetweenNodes> &found, std::vector<ContactRow> &rows);
@@ -207,7 +183,15 @@ namespace Touchstone
       for_nodes(rows, [&](std::vector<ContactRow> &first) { of_nodes->update(u, time, first); });
       if (on_edges)
         on_edges->update(u, rows);
-      tell_search(rows);
+      if (step_begins)
+        {
+          std::vector<std::pair<Index, std::uint64_t>> in_contact;
+          for (std::size_t k = 0; k < n; ++k)
+            if (rows[n + k].was_active && keys[k])
+              in_contact.emplace_back(rows[k].slave, *keys[k]);
+          search.hold(in_contact);
+          step_begins = false;
+        }
       std::vector<FoundBetweenNodes> found = search.find(u);
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
@@ -221,68 +205,8 @@ namespace Touchstone
         drop_covered(rows, found);
       if (on_edges && any[1] == 0)
         on_edges->forget();
-      set_arriving(found, rows);
       choose(found, rows);
       replace_rows_of_nodes(found, rows);
-    }
-
-
-
-    void
-    EdgePairing::tell_search(const std::vector<ContactRow> &rows)
-    {
-      if (step_begins)
-        {
-          in_contact.clear();
-          for (std::size_t k = 0; k < n; ++k)
-            if (rows[n + k].was_active && keys[k])
-              in_contact.emplace_back(rows[k].slave, *keys[k]);
-        }
-      if (step_begins || holds_change)
-        {
-          auto all = in_contact;
-          all.insert(all.end(), arrived.begin(), arrived.end());
-          search.hold(all);
-        }
-      step_begins = holds_change = false;
-    }
-
-
-
-    // A vertex that is pressed flat touches no longer, and does again as soon as it has no row:
-    // Newton's method would go to and fro. So whether one has a row that did not touch when the
-    // step began is decided in states of balance.
-    void
-    EdgePairing::set_arriving(std::vector<FoundBetweenNodes> &found,
-                              const std::vector<ContactRow>  &rows)
-    {
-      arriving.clear();
-      for (const FoundBetweenNodes &one : found)
-        if (const auto k = numbers.find(one.nodes.front().first);
-            one.arrives && k != numbers.end() && !rows[n + k->second].was_active &&
-            one.contact->gap() < -Tolerances::touching * rows[k->second].size)
-          if (const auto [other, is_new] = arriving.emplace(k->second, one);
-              !is_new && std::make_pair(one.contact->gap(), one.order) <
-                           std::make_pair(other->second.contact->gap(), other->second.order))
-            other->second = one;
-      found.erase(std::remove_if(found.begin(),
-                                 found.end(),
-                                 [](const FoundBetweenNodes &one) { return one.arrives; }),
-                  found.end());
-    }
-
-
-
-    // Collective.
-    bool
-    EdgePairing::arrive()
-    {
-      for (const auto &[k, one] : arriving)
-        arrived.emplace_back(one.nodes.front().first, one.contact->master_key());
-      holds_change =
-        Utilities::MPI::max(static_cast<int>(!arriving.empty()), input.solid->communicator) == 1;
-      arriving.clear();
-      return holds_change;
     }
 
 

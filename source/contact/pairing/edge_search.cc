@@ -138,29 +138,18 @@ namespace Touchstone
 
 
 
-  bool
-  EdgeSearch::is_taken(const Index node, const std::uint64_t key) const
-  {
-    return held.size() > 0 && held(dim * node) != 0. && held(dim * node) != in_a_double(key);
-  }
-
-
-
   unsigned int
   EdgeSearch::node_of_row(const std::vector<Index>  &nodes,
                           const std::uint64_t        key,
                           const std::vector<double> &weights,
                           const std::vector<double> &before) const
   {
-    const auto largest = [&](const std::vector<double> &by, const bool not_taken) {
+    const auto largest = [&](const std::vector<double> &by) {
       unsigned int result = numbers::invalid_unsigned_int;
       for (unsigned int k = 0; k < nodes.size(); ++k)
         {
-          // A hanging node has no row. One whose row is held for another edge or vertex is left to
-          // it if any other has enough weight.
-          if (solid.hanging.is_constrained(dim * nodes[k]) ||
-              (not_taken &&
-               (is_taken(nodes[k], key) || weights[k] <= 0.25 * Tolerances::least_share)))
+          // A hanging node has no row.
+          if (solid.hanging.is_constrained(dim * nodes[k]))
             continue;
           const bool first = result == numbers::invalid_unsigned_int;
           // Of equal ones, as in the middle, the first in space: numbers depend on the partition.
@@ -174,16 +163,12 @@ namespace Touchstone
         }
       return result;
     };
-    constexpr unsigned int none   = numbers::invalid_unsigned_int;
-    unsigned int           chosen = largest(before, /*not_taken=*/false);
-    if (chosen != none && is_taken(nodes[chosen], key))
-      if (const unsigned int other = largest(before, /*not_taken=*/true); other != none)
-        return other;
+    unsigned int chosen = largest(before);
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (is_held(nodes[k], key))
         chosen = k;
-    return chosen == none || weights[chosen] > Tolerances::least_share
+    return chosen == numbers::invalid_unsigned_int || weights[chosen] > Tolerances::least_share
              ? chosen
-             : largest(weights, /*not_taken=*/false);
+             : largest(weights);
   }
 } // namespace Touchstone

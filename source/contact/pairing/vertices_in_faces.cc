@@ -178,12 +178,9 @@ namespace Touchstone
     result.held =
       std::any_of(nodes.begin(), nodes.end(), [&](const Index node) { return is_held(node, key); });
     // What is in contact may be pressed flat, at first or within the step.
-    if (!result.held && !touches_in(vertex, of_start.normal(xi), /*before=*/true))
-      {
-        if (!touches_in(vertex, geometry.normal(xi), /*before=*/false))
-          return result;
-        result.arrives = true;
-      }
+    if (!result.held && !touches_in(vertex, geometry.normal(xi), /*before=*/false) &&
+        !touches_in(vertex, of_start.normal(xi), /*before=*/true))
+      return result;
     const unsigned int local = node_of_row(nodes, key, weights, weights_before);
     if (local == numbers::invalid_unsigned_int)
       return result;

@@ -27,11 +27,8 @@ namespace Touchstone
     /** By how much the point lies beyond the end of an edge, twice, length: of two edges that bend
      * at a node the one counts that has the point. */
     double beyond = 0.;
-    /** The step began with a row for the same edge or vertex in contact, or goes on with one. */
+    /** The step began with a row for the same edge or vertex in contact. */
     bool held = false;
-    /** A vertex that touches now and did not where the step began, and is not held: an iterate does
-     * not decide whether it has a row. */
-    bool arrives = false;
     /** The surfaces had passed through each other there when the step began already: the two sides
      * of a thin body, unless the row is held. */
     bool before = false;
@@ -51,9 +48,8 @@ namespace Touchstone
     void
     commit(const Vector *u);
 
-    /** @brief Tell what rows are in contact when a step begins, or are to be in this step.
-     * Collective. @param keys Of slave nodes of this rank, the master keys of their rows between
-     * nodes. */
+    /** @brief Tell what rows are in contact when a step begins. Collective.
+     * @param keys Of slave nodes of this rank, the master keys of their rows between nodes. */
     void
     hold(const std::vector<std::pair<Index, std::uint64_t>> &keys);
 
@@ -123,9 +119,6 @@ namespace Touchstone
                 const std::vector<double> &before) const;
     bool
     is_held(Index node, std::uint64_t key) const;
-    /** Whether the row of a node is held for another edge or vertex. */
-    bool
-    is_taken(Index node, std::uint64_t key) const;
     bool
     owned(const std::vector<Index> &nodes) const;
   };

@@ -129,20 +129,12 @@ namespace Touchstone
     }
 
     /** @brief The last update() was in a state of balance: which slave nodes have left edges that
-     * they were to stay on, see EdgesUnderNodes, and which vertices of the master have come to
-     * press on slave faces. @return Whether the step is to begin again on account of nodes of this
-     * rank. */
+     * they were to stay on, see EdgesUnderNodes. @return Whether the step is to begin again on
+     * account of nodes of this rank. */
     virtual bool
     leave_edges()
     {
       return false;
-    }
-
-    /** @brief A row between nodes, by its number among all rows, does not describe what update()
-     * has found there but a point inside a slave face. */
-    virtual void
-    give_to_point(std::size_t /*k*/)
-    {
     }
 
     /** @brief Whether the row of a slave node, by its number among the owned ones, is that of a
