@@ -6,6 +6,7 @@
 #include <touchstone/output/model_export.h>
 #include <touchstone/output/preview.h>
 #include <touchstone/scene/command_line.h>
+#include <touchstone/scene/own_keys.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -62,6 +63,12 @@ namespace
       {
         if (first)
           std::cout << (line.help ? CommandLine::usage() : "Touchstone " TOUCHSTONE_VERSION "\n");
+        return 0;
+      }
+    if (line.print_own_keys)
+      {
+        if (first)
+          print_own_keys(std::cout);
         return 0;
       }
     const Scene scene(read_scene_file(line.scene_file), line.scene_file, line.overrides);
