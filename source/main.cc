@@ -119,11 +119,10 @@ namespace
             for (const std::string &text : simulation.comparison())
               std::cout << text << '\n';
             std::cout << "Wall time " << readable_duration(summary.seconds.wall) << ". Results in "
-                      << scene.output.directory
-                      << (scene.output.format == ResultFormat::xdmf
-                            ? ": solution.xdmf, contact.xdmf"
-                            : ": solution.pvd, contact.pvd")
-                      << ", statistics, summary.json\n";
+                      << scene.output.directory << ": ";
+            for (const std::string &list : simulation.written_lists())
+              std::cout << list << ", ";
+            std::cout << "statistics, summary.json\n";
           }
         // In one piece, or mpirun mixes it with the standard output.
         if (!summary.converged)
