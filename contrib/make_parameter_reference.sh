@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Print doc/parameters.md, the reference of all sections and keys of scene files,
-# as the program itself documents them in --print-parameters.
+# as the program itself documents them in --print-parameters and --print-own-keys.
 #
 # Usage: contrib/make_parameter_reference.sh PROGRAM > doc/parameters.md
 #        contrib/make_parameter_reference.sh --check PROGRAM   fails if that is old
@@ -10,6 +10,8 @@ root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 
 if [ "${1-}" = --check ]; then
   [ $# -eq 2 ] || { sed -n '2,7s/^# *//p' "$0" >&2; exit 2; }
+  # Independent of what the program prints.
+  python3 "$root/contrib/check_parameter_keys" || exit 1
   if "$0" "$2" | diff -u "$root/doc/parameters.md" -; then
     echo "doc/parameters.md is up to date"
     exit 0
@@ -21,7 +23,8 @@ fi
 [ $# -eq 1 ] || { sed -n '2,7s/^# *//p' "$0" >&2; exit 2; }
 
 # Options of the surroundings, such as those of the tests, are not for this.
-printed=$(TOUCHSTONE_OPTIONS= "$1" --print-parameters "$root/doc/all_sections.prm")
+printed=$(TOUCHSTONE_OPTIONS= "$1" --print-parameters "$root/doc/all_sections.prm"
+  TOUCHSTONE_OPTIONS= "$1" --print-own-keys)
 
 cat <<'END'
 # Scene files: all sections and keys
@@ -32,7 +35,8 @@ sections belong together. `touchstone --print-parameters scene.prm` prints the
 same for the sections of one scene, with the values that it sets.
 
 Units are those of the scene's own consistent system. A value in the column
-"default" counts where a scene does not set the key.
+"default" counts where a scene does not set the key. Sections "with KEY = CLASS"
+have the keys that exist beside this KEY where it names this CLASS.
 END
 
 printf '%s\n' "$printed" | awk '

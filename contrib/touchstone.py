@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads what runs have written, with nothing but Python: summary, statistics, probes, and the VTU files
-of bodies and contact surfaces.
+of bodies and contact surfaces; with h5py those of the format XDMF, too.
 
     import sys; sys.path.insert(0, "contrib")
     import touchstone
@@ -29,7 +29,7 @@ import xml.etree.ElementTree as xml
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 # pylint: disable=wrong-import-position
-from fuzzing import vtu
+from fuzzing import vtu, xdmf
 
 
 class Run:
@@ -59,7 +59,7 @@ class Run:
 
     def times(self, series="contact"):
         """Times of the files of a series, 'contact' or 'solution'."""
-        return [time for time, file in files(self.folder / f"{series}.pvd")]
+        return [time for time, _ in results(self.folder, series)]
 
     def contact(self, time=None):
         """Nodes of the slave surfaces, vtu.Node, at a time, or at the last."""
@@ -76,6 +76,9 @@ class Run:
     def bodies(self, time=None):
         """Arrays of the bodies by name, of each rank; 'position' are the points. Points between cells
         come once for each cell."""
+        grid = grid_at(self.folder, "solution", time)
+        if grid is not None:
+            return [xdmf.read(self.folder, grid)[0]]
         return [arrays for file in files_at(self.folder, "solution", time)
                 for arrays in vtu.pieces(file)]
 
@@ -87,14 +90,37 @@ def files(series):
     return [(float(d.get("timestep")), d.get("file")) for d in xml.parse(series).iter("DataSet")]
 
 
-def files_at(folder, name, time=None):
-    """The files of all ranks of one time: the nearest to @p time, or the last."""
-    found = files(folder / f"{name}.pvd")
+def results(folder, name):
+    """(time, file or grid) of a series, in order: of VTU files, of XDMF, or of a run that was resumed in the
+    other format."""
+    found = files(folder / f"{name}.pvd") + xdmf.grids(folder / f"{name}.xdmf")
+    return sorted(found, key=lambda entry: entry[0])
+
+
+def result_at(folder, name, time=None):
+    """The file or grid of one time: the nearest to @p time, or the last."""
+    found = results(folder, name)
     if not found:
+        return None
+    return (found[-1] if time is None else min(found, key=lambda entry: abs(entry[0] - time)))[1]
+
+
+def grid_at(folder, name, time=None):
+    """The same if it is one of XDMF, or None."""
+    found = result_at(folder, name, time)
+    return None if isinstance(found, str) else found
+
+
+def files_at(folder, name, time=None):
+    """The VTU files of all ranks of one time: the nearest to @p time, or the last."""
+    found = result_at(folder, name, time)
+    if not isinstance(found, str):
         return []
-    # Not the last file in the folder, which may have some of an earlier run.
-    file = found[-1][1] if time is None else min(found, key=lambda entry: abs(entry[0] - time))[1]
-    return sorted(folder.glob(f"{file.partition('.')[0]}.*vtu"))
+    # Only files that the series names: the folder may have others, of an earlier run.
+    file = folder / found
+    if file.suffix != ".pvtu":
+        return [file]
+    return [folder / piece.get("Source") for piece in xml.parse(file).iter("Piece")]
 
 
 def table(path):
@@ -102,6 +128,8 @@ def table(path):
     numbers."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))
+    if not rows or not rows[0]:
+        raise ValueError(f"{path} is empty")
     columns, units = {}, {}
     for i, title in enumerate(rows[0]):
         name, _, unit = title.partition("[")
@@ -137,14 +165,20 @@ def attempts(folder):
 
 def surface(folder, time=None):
     """Nodes of the contact surface at a time, or the last, of all ranks."""
-    # Nodes between the parts of two ranks are in the files of both.
-    nodes = {(node.position, node.pair): node
-             for file in files_at(folder, "contact", time) for node in vtu.read(file)}
-    return list(nodes.values())
+    grid = grid_at(folder, "contact", time)
+    found = (node for file in files_at(folder, "contact", time) for node in vtu.read(file)) if grid is None else (
+        vtu.nodes_of(xdmf.read(folder, grid)[0]))
+    # Nodes between the parts of two ranks are in the files of both; XDMF has them for each face.
+    return list({(node.position, node.pair): node for node in found}.values())
 
 
 def faces(folder, time=None):
     """Faces of the contact surface at a time, or the last, of all ranks."""
+    grid = grid_at(folder, "contact", time)
+    if grid is not None:
+        arrays, cells = xdmf.read(folder, grid)
+        nodes = vtu.nodes_of(arrays)
+        return [[nodes[i] for i in cell] for cell in cells]
     return [face for file in files_at(folder, "contact", time) for face in vtu.faces(file)]
 
 

@@ -6,6 +6,7 @@
 #include <touchstone/output/model_export.h>
 #include <touchstone/output/preview.h>
 #include <touchstone/scene/command_line.h>
+#include <touchstone/scene/own_keys.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -64,6 +65,12 @@ namespace
           std::cout << (line.help ? CommandLine::usage() : "Touchstone " TOUCHSTONE_VERSION "\n");
         return 0;
       }
+    if (line.print_own_keys)
+      {
+        if (first)
+          print_own_keys(std::cout);
+        return 0;
+      }
     const Scene scene(read_scene_file(line.scene_file), line.scene_file, line.overrides);
     // Mesh files are named relative to the scene.
     const std::string folder = std::filesystem::path(line.scene_file).parent_path().string();
@@ -112,11 +119,10 @@ namespace
             for (const std::string &text : simulation.comparison())
               std::cout << text << '\n';
             std::cout << "Wall time " << readable_duration(summary.seconds.wall) << ". Results in "
-                      << scene.output.directory
-                      << (scene.output.format == ResultFormat::xdmf
-                            ? ": solution.xdmf, contact.xdmf"
-                            : ": solution.pvd, contact.pvd")
-                      << ", statistics, summary.json\n";
+                      << scene.output.directory << ": ";
+            for (const std::string &list : simulation.written_lists())
+              std::cout << list << ", ";
+            std::cout << "statistics, summary.json\n";
           }
         // In one piece, or mpirun mixes it with the standard output.
         if (!summary.converged)

@@ -335,22 +335,22 @@ namespace Touchstone
     // Rows of averages give each node what a pressure over its area gives, but for the areas of
     // facets over curved surfaces. Of pointwise rows, meshes whose faces are of about the same size
     // differ by 10 % and more somewhere, slaves that are nested in the master's faces by nothing.
-    constexpr double                even         = 1.05;
-    const MPI_Comm                  communicator = contact.communicator();
-    const std::vector<ContactPoint> points = master_points(contact, contact.ghosted_displacement());
-    std::vector<std::string>        result;
-    auto                            point = points.begin();
+    constexpr double         even         = 1.05;
+    const MPI_Comm           communicator = contact.communicator();
+    std::vector<std::string> result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const Surface *const master = contact.pair(p).master())
         {
           // At its ends the master may have less than the slave, whatever the rows.
-          const std::set<Index> ends = end_nodes(*master);
-          double                most = 0.;
+          const std::set<Index> ends  = end_nodes(*master);
+          const auto            areas = areas_on_master(contact, p);
+          double                most  = 0.;
+          auto                  area  = areas.begin();
           for (const SurfaceNode &node : master->owned_nodes())
             {
               if (ends.count(node.node) == 0 && node.area > 0.)
-                most = std::max(most, point->area / node.area);
-              ++point;
+                most = std::max(most, *area / node.area);
+              ++area;
             }
           most = Utilities::MPI::max(most, communicator);
           if (!contact.pair(p).tied() || most <= even)

@@ -77,6 +77,18 @@ namespace Touchstone
 
 
 
+  std::vector<std::string>
+  Simulation::written_lists()
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, series] : picture_series())
+      if (!series.get().list().empty())
+        names.push_back(series.get().list_name());
+    return names;
+  }
+
+
+
   void
   Simulation::write_checkpoint(const Position &position)
   {
@@ -276,6 +288,8 @@ namespace Touchstone
 
     restore_results(archive);
     last_checkpoint = start.step;
+    for (const auto &[name, series] : picture_series())
+      series.get().remove_earlier_run(start.step);
 
     std::vector<std::string> lines = origin.skipped;
     lines.push_back("goes on from " + checkpoint.name + ": step " + std::to_string(start.step - 1) +

@@ -180,6 +180,8 @@ namespace Touchstone
             *record.angular_momentum += momentum.angular;
           }
       }
+    for (const auto &[name, series] : picture_series())
+      series.get().remove_earlier_run(0);
     statistics.add_start(record);
     probes.record(folder, volume_output, u, 0.);
     if (scene.output.vtu_interval > 0)
@@ -287,8 +289,8 @@ namespace Touchstone
     else if (!summary.converged)
       {
         log.line("The run did not converge: " + summary.failure);
-        log.line("The last converged state is in " + folder.path("solution.pvd") + ". " +
-                 problem->advice());
+        log.line("The last converged state is in " +
+                 folder.path(volume_output.series().list_name()) + ". " + problem->advice());
       }
     log.check();
     return summary;

@@ -60,6 +60,8 @@ namespace Touchstone
           for (const StepValue &value : values.entries)
             csv.add(value);
         }
+    // Also for a run that ends in its first step, and in place of the tables of an earlier run.
+    write();
   }
 
 

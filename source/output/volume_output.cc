@@ -153,8 +153,13 @@ namespace Touchstone
                                const bool                 at_nodes,
                                const unsigned int         n_components,
                                const std::vector<double> &values,
+                               const bool                 rest,
                                SolidPatches              &patches) const
   {
+    // The format finds the rest of each set of numbers by the name of this set.
+    const auto set = [rest](const std::string &name) {
+      return rest ? FileSeries::rest_name(name) : name;
+    };
     const bool          tensor = n_components == dim * dim;
     const bool          joined = n_components == dim || (tensor && files->has_tensors());
     std::vector<double> one(values.size() / n_components);
@@ -162,10 +167,10 @@ namespace Touchstone
       {
         for (std::size_t i = 0; i < one.size(); ++i)
           one[i] = values[n_components * i + c];
-        patches.add(tensor && !joined ? name + "_" + component_name(c) : name, at_nodes, one);
+        patches.add(set(tensor && !joined ? name + "_" + component_name(c) : name), at_nodes, one);
       }
     if (joined)
-      patches.join(name, n_components);
+      patches.join(set(name), n_components);
   }
 
 
@@ -179,9 +184,9 @@ namespace Touchstone
   {
     if (n_components == dim * dim && !files->has_tensors() && has_components(name))
       return;
-    add_components(name, at_nodes, n_components, values, patches);
+    add_components(name, at_nodes, n_components, values, /*rest=*/false, patches);
     if (files->has_doubles())
-      add_components(FileSeries::rest_name(name), at_nodes, n_components, rests(values), patches);
+      add_components(name, at_nodes, n_components, rests(values), /*rest=*/true, patches);
   }
 
 

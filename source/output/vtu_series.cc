@@ -119,6 +119,6 @@ namespace Touchstone
   {
     std::ostringstream text;
     dealii::DataOutBase::write_pvd_record(text, list());
-    folder.write_file_atomically(name + ".pvd", text.str());
+    folder.write_file_atomically(list_name(), text.str());
   }
 } // namespace Touchstone

@@ -242,6 +242,6 @@ namespace Touchstone
     for (const auto &[time, grid] : list())
       text += grid;
     text += "    </Grid>\n  </Domain>\n</Xdmf>\n";
-    folder.write_file_atomically(name + ".xdmf", text);
+    folder.write_file_atomically(list_name(), text);
   }
 } // namespace Touchstone

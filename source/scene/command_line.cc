@@ -57,6 +57,7 @@ namespace Touchstone
                                                     {"--validate", &line.validate},
                                                     {"--preview", &line.preview},
                                                     {"--print-parameters", &line.print_parameters},
+                                                    {"--print-own-keys", &line.print_own_keys},
                                                     {"--results-only", &line.results_only},
                                                     {"--resume", &line.resume}};
 
@@ -118,7 +119,7 @@ namespace Touchstone
           }
       }
 
-    if (line.scene_file.empty() && !line.help && !line.version)
+    if (line.scene_file.empty() && !line.help && !line.version && !line.print_own_keys)
       throw InputError(section,
                        "",
                        "",
@@ -143,6 +144,8 @@ namespace Touchstone
            "  --preview               write the meshes with the names of boundaries, and a\n"
            "                          drawing, into the output folder, then stop\n"
            "  --print-parameters      print the complete scene with all keys, then stop\n"
+           "  --print-own-keys        print the keys that only some choices have, of laws,\n"
+           "                          pairings and the like, then stop\n"
            "  --set \"Section/Key=value\"  change one key of the scene; can be repeated\n"
            "  --output FOLDER         write there instead of to output/STEM\n"
            "  --resume                go on from the newest checkpoint in the output folder;\n"

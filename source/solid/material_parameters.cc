@@ -44,12 +44,12 @@ namespace Touchstone
   void
   MaterialParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
-    law.declare_key(prm,
-                    values,
-                    "Law",
-                    "The material law, isotropic but for 'orthotropic'. 'linear elastic': small "
-                    "strain and small rotations.",
-                    {"linear elastic"});
+    law.declare_key(
+      prm,
+      values,
+      "Law",
+      "The material law. 'linear elastic': isotropic, for small strain and small rotations.",
+      {"linear elastic"});
     const auto own = law.own_keys<OwnModuli>();
     if (!own)
       prm.add_parameter("Young modulus",

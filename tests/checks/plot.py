@@ -6,6 +6,8 @@ import argparse
 import importlib.machinery
 import importlib.util
 import math
+import os
+import shutil
 import subprocess
 import sys
 
@@ -28,6 +30,8 @@ loader.exec_module(plot)
 
 one = run("one", SCENE, {STEPS: 4}, vtu=1)
 run("two", SCENE, {STEPS: 4}, ranks=2, vtu=1)
+run("xdmf", SCENE, {STEPS: 4, "Output/Format": "xdmf"}, vtu=1)
+failed = run("failed", SCENE, {"Newton/Maximum iterations": 1, "Load stepping/Maximum cuts": 0}, fails=True)
 
 
 def curves(kind, name="one", **options):
@@ -131,6 +135,22 @@ try:
 except FileNotFoundError as error:
     check("no summary.json" in str(error), str(error))
 
+# A run that ends in its first step has the row of its start.
+columns, _ = plot.table(failed.folder / "statistics.csv")
+check(columns["time"] == [0.] and columns["energy.strain"] == [0.], f"table of a run that failed {columns}")
+
+# Results in the format XDMF are the same, where h5py is installed.
+if importlib.util.find_spec("h5py"):
+    other = touchstone.Run(folder / "xdmf")
+    check(other.times() == time and len(other.bodies()) == 1 and
+          len(other.bodies()[0]["displacement"]) == sum(len(piece["displacement"]) for piece in pieces), "bodies of XDMF")
+    both = [{tuple(round(x, 5) for x in node.position): node.pressure for node in result.contact()} for result in (other, two)]
+    check(len(both[0]) == 16 and both[0].keys() == both[1].keys() and
+          all(math.isclose(both[0][place], both[1][place], rel_tol=1e-5) for place in both[0]), f"contact surface {both}")
+    lines = [next(iter(curves("pressure", name)[0].values())) for name in ("xdmf", "two")]
+    check(all(math.isclose(a, b, rel_tol=1e-5) for one_list, other_list in zip(*lines)
+              for a, b in zip(one_list, other_list)) and len(lines[0][0]) == 4, f"pressures of XDMF {lines}")
+
 # Without VTK contrib/render.py says what to install.
 blocked = folder / "blocked"
 blocked.mkdir(exist_ok=True)
@@ -140,8 +160,8 @@ rendered = subprocess.run([sys.executable, source / "contrib/render.py", folder 
 check(rendered.returncode != 0 and "apt-get install python3-vtk9" in rendered.stderr, rendered.stderr)
 
 
-def call(*arguments):
-    return subprocess.run([sys.executable, source / "contrib/plot", *arguments],
+def call(*arguments, **environment):
+    return subprocess.run([sys.executable, source / "contrib/plot", *arguments], env={**os.environ, **environment},
                           capture_output=True, text=True, check=False)
 
 
@@ -155,5 +175,22 @@ if importlib.util.find_spec("matplotlib"):
 else:
     check(done.returncode == 1 and "apt-get install python3-matplotlib" in done.stderr, done.stderr)
 check("no statistics.csv" in call("nothing").stderr, "a folder that is none of a run")
+(folder / "empty").mkdir(exist_ok=True)
+(folder / "empty/statistics.csv").write_text("", encoding="utf-8")
+for arguments, text in ((("empty",), "empty/statistics.csv is empty"), (("one", "--column", "("), "'(' is no pattern")):
+    done = call(*arguments)
+    check(done.returncode != 0 and text in done.stderr and "Traceback" not in done.stderr, done.stderr)
+# What cannot be read is named, and the other runs are drawn all the same.
+(blocked / "numpy.py").unlink()
+(blocked / "h5py.py").write_text("raise ImportError('blocked')\n", encoding="utf-8")
+if importlib.util.find_spec("matplotlib"):
+    shutil.rmtree("pictures")
+    done = call("nothing", "one", "empty", "failed", "--output", "pictures")
+    check(done.returncode == 1 and "nothing is not the folder of a run" in done.stderr and "is empty" in done.stderr and
+          "failed" not in done.stderr and (folder / "pictures/force.png").is_file(), f"{done}")
+    for kind, code in ((("--kind", "pressure"), 1), ((), 0)):
+        done = call("xdmf", "one", *kind, "--output", "pictures", PYTHONPATH=os.pathsep.join([str(blocked), os.environ.get("PYTHONPATH", "")]))
+        check(done.returncode == code and "xdmf: results in the format XDMF need h5py" in done.stderr and
+              "pressure.png" in done.stdout, f"{done}")
 check("no history probe_tip.csv" in call("one", "--over", "tip").stderr, "a probe that is not there")
 finish()

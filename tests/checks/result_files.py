@@ -10,8 +10,9 @@ import csv
 import math
 import xml.etree.ElementTree as xml
 
-from touchstone_test import STEPS, check, checks, finish, folder, launch, prm, run, settings_options
+from touchstone_test import STEPS, Run, check, checks, finish, folder, launch, prm, run, settings_options
 from fuzzing import vtu  # pylint: disable=wrong-import-order
+import touchstone  # pylint: disable=wrong-import-order
 
 SCENE, SETTINGS = folder / "probes.prm", {STEPS: 4}
 SCENE.write_text(f"""
@@ -169,6 +170,84 @@ for name, settings in (
         ("averaged", {}), ("pointwise", {"Contact pair interface/Pairing": "pointwise"}),
         ("quadratic", {"Discretisation/Degree": 2})):
     action_is_reaction(run(name, prm / "patch_test.prm", settings, ranks=2, vtu=1))
+# A slave that covers part of the master's faces: at the edge of the cover shape functions of degree 2 leave
+# some nodes a negative area.
+COVERED = folder / "covered.prm"
+COVERED.write_text("""
+set Bodies = low, high
+set Contact pairs = c
+subsection Body low
+  set Fixed = bottom
+  subsection Geometry
+    set Type         = box
+    set Upper corner = 2, 2, 1
+    set Cells        = 3, 3, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+  end
+end
+subsection Body high
+  set Boundary conditions = top
+  subsection Boundary top
+    set Displacement x = 0.02
+    set Displacement y = 0
+    set Displacement z = -0.05
+  end
+  subsection Geometry
+    set Type         = box
+    set Lower corner = 0.52, 0.5, 1
+    set Upper corner = 1.52, 1.5, 2
+    set Cells        = 2, 2, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+  end
+end
+subsection Contact pair c
+  set Slave body        = high
+  set Slave boundaries  = bottom
+  set Master body       = low
+  set Master boundaries = top
+end
+subsection Discretisation
+  set Degree = 2
+end
+""", encoding="utf-8")
+HANGING = {"Refinement/Estimator": "region", "Refinement/Region": "x+y-2", "Refinement/Cycles": 1,
+           "Refinement/Cycles per step": 0}
+for name, settings, ranks in (("covered", {}, 1), ("covered-2", {}, 2), ("covered-tied", {"Contact pair c/Behaviour": "tied"}, 1),
+                              ("covered-pointwise", {"Contact pair c/Pairing": "pointwise"}, 1),
+                              ("covered-hanging", HANGING, 1), ("covered-hanging-2", HANGING, 2)):
+    covered = run(name, COVERED, settings, ranks=ranks, vtu=1)
+    action_is_reaction(covered)
+    check(min(area for file in covered.folder.glob("master_contact_0001*.vtu") for arrays in vtu.pieces(file)
+              for area in arrays["area"]) >= 0, f"{covered}: negative areas")
+
+# A folder that has the files of an earlier run, of more steps or of another number of ranks, has those of the last
+# run alone; what the program does not write stays. A run that goes on leaves what is there from before.
+again, foreign = folder / "again", ("solution_0001.vtu.old", "my_solution_0001.vtu", "contact_final.vtu")
+for ranks, steps in ((1, 4), (2, 2), (1, 2)):
+    done = launch("--output", again, *settings_options({STEPS: steps, "Output/VTU interval": 1}), SCENE, ranks=ranks)
+    check(done.returncode == 0 and "Results in again: solution.pvd, contact.pvd, master_contact.pvd, statistics"
+          in done.stdout.replace(str(again), "again"), done.stdout)
+    series = touchstone.Run(again)
+    named = {file.name for name in ("solution", "contact", "master_contact") for time in series.times(name)
+             for file in touchstone.files_at(again, name, time)}
+    pieces = {file.name for file in again.glob("*_????.*vtu") if file.suffix == ".vtu"} - set(foreign)
+    check(pieces == named, f"{ranks} ranks: files that the series do not name {sorted(pieces ^ named)}")
+    check(len(series.bodies()) == ranks and len(series.times()) == steps + 1, f"{ranks} ranks: {len(series.bodies())} pieces")
+    forces = [sum(node.force[d] for node in series.contact()) for d in range(3)]
+    check(math.dist(forces, Run("again", again, "").force("contact")) < 1e-5 * max(map(abs, forces)), f"{ranks} ranks: forces {forces}")
+    for name in foreign:
+        (again / name).write_text("mine", encoding="utf-8")
+check(all((again / name).is_file() for name in foreign), "files of the user are gone")
+# The reader takes what the series names, whatever else is there.
+(again / "contact_0002.7.vtu").write_bytes((again / "contact_0001.vtu").read_bytes())
+check(len(touchstone.files_at(again, "contact")) == 1, "a piece that no series names")
+done = launch("--output", again, *settings_options({STEPS: 2, "Output/VTU interval": 0}), SCENE)
+check("again: statistics, summary.json" in done.stdout and not list(again.glob("*.pvd")) and
+      {path.name for path in again.glob("*.vtu*")} == set(foreign), f"{done.stdout} {sorted(again.glob('*.vtu*'))}")
 
 # Stresses that are not smoothed: those of the cells average to those of their points.
 rough = run("rough", prm / "patch_test.prm", {
@@ -199,6 +278,11 @@ for name in ("solution", "contact", "master_contact"):
     for step in range(len(rows)):
         check((folder / f"xdmf/{name}_{step:04}.h5").stat().st_size > 1000 and
               f"{name}_{step:04}.h5:/displacement" in text, f"{name}.xdmf, step {step}")
+# Rests of single precision are added to the numbers, not fields of their own: of tensors, too.
+raw = run("xdmf-cells", prm / "patch_test.prm", {"Output/Format": "xdmf", "Output/Unsmoothed values": "both"}, vtu=1)
+for name, field in (("solution", "cell_stress_zz"), ("points", "stress_zz")):
+    text = (raw.folder / f"{name}.xdmf").read_text(encoding="utf-8")
+    check(f'Name="{field}"' in text and "(rest)" not in text, f"fields of {name}.xdmf")
 check(not list((folder / "xdmf").glob("*.vtu")) and not list((folder / "xdmf").glob("*.part")),
       "other files beside those of XDMF")
 

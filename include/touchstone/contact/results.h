@@ -116,10 +116,16 @@ namespace Touchstone
 
   /** @brief Contact at this rank's nodes of the master surfaces in displacement @p u: what the rows
    * do to them, so that forces of both sides add up to zero, and those of a side to the force of
-   * its pair. Area, pressure and gap are the means of the rows that have the node in their stencil;
-   * `normal` is that of the master surface. Obstacles have no nodes. Collective. */
+   * its pair. Area, pressure, traction and gap are the means of the rows that have the node in
+   * their stencil, see PositiveSpread; `normal` is that of the master surface. Obstacles have no
+   * nodes. Collective. */
   std::vector<ContactPoint>
   master_points(const Contact &contact, const Vector &u);
+
+  /** @brief What rows hand on of their areas to the Surface::owned_nodes() of the master of a pair
+   * with the weights of forces, of either sign. Collective. */
+  std::vector<double>
+  areas_on_master(const Contact &contact, unsigned int pair);
 
   /** @brief Master faces of this rank. */
   std::vector<ContactFace>

@@ -68,6 +68,10 @@ namespace Touchstone
       return comparison_lines;
     }
 
+    /** @brief Names of the lists of pictures that the run has written. */
+    std::vector<std::string>
+    written_lists();
+
   private:
     const Scene                   &scene;
     const MPI_Comm                 communicator;

@@ -78,6 +78,17 @@ namespace Touchstone
     void
     restore(const List &before);
 
+    /** @brief Remove the files of steps that an earlier run has left in the folder, of any number
+     * of ranks and in any format: viewers and scripts would take them for results of this run.
+     * Those of earlier steps than @p first_step stay, and with them the list. Collective.
+     * @throws OutputError */
+    void
+    remove_earlier_run(unsigned int first_step) const;
+
+    /** @brief Name of the file with the list. */
+    virtual std::string
+    list_name() const = 0;
+
   protected:
     FileSeries(const OutputFolder &folder, const std::string &name);
 

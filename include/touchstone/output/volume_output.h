@@ -93,12 +93,14 @@ namespace Touchstone
               const std::vector<double> &values,
               SolidPatches              &patches) const;
 
-    /** @brief Add its components, joined to a vector or tensor where the format has that. */
+    /** @brief Add its components, joined to a vector or tensor where the format has that.
+     * @param rest The values are what single precision leaves of those of the field. */
     void
     add_components(const std::string         &name,
                    bool                       at_nodes,
                    unsigned int               n_components,
                    const std::vector<double> &values,
+                   bool                       rest,
                    SolidPatches              &patches) const;
 
     /** @brief Whether the components of this tensor are fields of their own. */

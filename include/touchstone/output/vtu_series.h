@@ -32,6 +32,12 @@ namespace Touchstone
     void
     write(const dealii::DataOutInterface<0, 3> &data, unsigned int step, double time) override;
 
+    std::string
+    list_name() const override
+    {
+      return name + ".pvd";
+    }
+
     bool
     has_tensors() const override
     {

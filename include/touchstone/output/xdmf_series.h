@@ -31,6 +31,12 @@ namespace Touchstone
     void
     write(const dealii::DataOutInterface<0, 3> &data, unsigned int step, double time) override;
 
+    std::string
+    list_name() const override
+    {
+      return name + ".xdmf";
+    }
+
     bool
     has_tensors() const override
     {

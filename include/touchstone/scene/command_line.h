@@ -16,6 +16,8 @@ namespace Touchstone
     bool validate         = false;
     bool preview          = false;
     bool print_parameters = false;
+    /** Print the keys that only some choices of a scene have. */
+    bool print_own_keys = false;
     /** Print nothing but the results, which do not depend on the machine. */
     bool results_only = false;
     /** Resume from the newest checkpoint in the output folder. */
@@ -30,7 +32,7 @@ namespace Touchstone
      * @brief Read the options of the environment variable TOUCHSTONE_OPTIONS,
      * which has blanks between them, and then the arguments of main().
      * @throws InputError for options that are unknown or lack their value, and
-     * if there is not exactly one scene file (none with help or version).
+     * if there is not exactly one scene file (none with help, version or own keys).
      */
     static CommandLine
     parse(int argc, const char *const *argv);
