@@ -34,6 +34,7 @@ namespace Touchstone
                                                    input.forest.boundary_name(id),
                                                    input.in_cycles);
       }
+    plane_cut       = make_cut();
     points_meet     = find_points();
     edges_meet      = points_meet && find_edges();
     search_distance = input.parameters.search_distance;
@@ -83,6 +84,37 @@ namespace Touchstone
     if (surface->largest_face() == 0.)
       throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
     return surface;
+  }
+
+
+
+  std::unique_ptr<PlaneCut>
+  ContactPair::make_cut() const
+  {
+    const ContactPairParameters &pair = input.parameters;
+    if (!pair.has_pretension())
+      return nullptr;
+    const auto finite = [this](const unsigned int body) {
+      return input.solid.bodies[body].material.finite_strain();
+    };
+    auto result = std::make_unique<PlaneCut>(*slave_surface,
+                                             finite(input.slave_body) || finite(input.master_body),
+                                             input.solid.communicator);
+    // Of the size of the cut: coordinates of imported meshes are rounded.
+    constexpr double plane = 1e-3;
+    if (const auto [height, size] = result->height_and_size(); height > plane * size)
+      {
+        const bool by_force = !pair.pretension_force.empty();
+        throw InputError(pair.section(),
+                         by_force ? "Pretension force" : "Pretension shortening",
+                         by_force ? pair.pretension_force : pair.pretension_shortening,
+                         "the sides of a cut are drawn together along its normal, but the "
+                         "'Slave boundaries' of this pair are not plane",
+                         "cut the bolt by a plane and name the faces on both sides of it; curved "
+                         "surfaces that press on each other are meshed with their interference "
+                         "instead ('Initial overlap')");
+      }
+    return result;
   }
 
 
@@ -180,6 +212,14 @@ namespace Touchstone
     const MPI_Comm communicator = input.solid.communicator;
     add_planes(*slave_surface, SharedSymmetry(*master_surface, of_nodes, communicator));
     add_planes(*master_surface, SharedSymmetry(*slave_surface, of_nodes, communicator));
+    if (plane_cut)
+      {
+        std::vector<Tensor<1, dim>> of_cut;
+        for (const SurfaceNode &node : slave_surface->owned_nodes())
+          if (const auto found = planes.find(node.node); found != planes.end())
+            of_cut.insert(of_cut.end(), found->second.begin(), found->second.end());
+        plane_cut->set_planes_of_symmetry(of_cut);
+      }
   }
 
 

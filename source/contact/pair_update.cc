@@ -112,14 +112,15 @@ namespace Touchstone
   {
     // Gap vector g_0 + M u with constant weights and normal. A tied pair keeps its initial gap:
     // only the relative displacement M u is constrained, or what it lacks of a shortening.
-    from.stencil_values = u;
+    from.stencil_values        = u;
+    const Tensor<1, dim> drawn = plane_cut ? plane_cut->drawn(*displacement) : Tensor<1, dim>();
     for (std::size_t k = 0; k < rows.size(); ++k)
       {
         ContactRow       &row       = rows[k];
         const ContactRow &reference = from.rows[k];
         if (!row.has_partner)
           continue;
-        row.gap_vector = is_tied ? shortening * row.normal : reference.gap_vector;
+        row.gap_vector = is_tied ? -drawn : reference.gap_vector;
         if (input.obstacle != nullptr)
           {
             // The node keeps its place on an obstacle that moves.

@@ -78,16 +78,6 @@ namespace Touchstone
                                              invert(frame(MeasuredFace::in_reference(face))));
     }
 
-    /** A face with the displacement @p u: surfaces of tied pairs are not moved. */
-    Face
-    displaced(Face face, const Vector &u)
-    {
-      for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        for (unsigned int d = 0; d < dim; ++d)
-          face.displacement[m][d] = u(dim * face.nodes[m] + d);
-      return face;
-    }
-
     double
     angle(const Tensor<2, dim> &rotation)
     {
@@ -148,7 +138,7 @@ namespace Touchstone
           forces += force.norm() * row.size;
           lengths.push_back(distance.norm());
           const Tensor<2, dim> turn =
-            rotation(displaced(*slave.faces_around(row.slave).front().first, u));
+            rotation(MeasuredFace::displaced(*slave.faces_around(row.slave).front().first, u));
           const double error = missed(turn, distance).norm();
           const Error  here{
             error / (of_distance * row.size), error, distance.norm(), angle(turn), row.position};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/archive/archive.h>
-#include <touchstone/base/exact_sum.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/broyden.h>
@@ -87,21 +86,11 @@ namespace Touchstone
   std::vector<std::pair<double, double>>
   Pretension::tensions(const Vector &u) const
   {
-    std::vector<std::array<ExactSum, dim>> normals(contact.n_pairs());
-    for (const ContactRow &row : contact.rows())
-      for (unsigned int d = 0; d < dim; ++d)
-        normals[row.pair][d].add(row.normal[d]);
     const std::vector<PairResult>          results = pair_results(contact, u);
     std::vector<std::pair<double, double>> all;
     for (const Cut &cut : cuts)
-      {
-        // The cut is plane: all normals are the same, from the master to the slave side.
-        Tensor<1, dim> normal;
-        for (unsigned int d = 0; d < dim; ++d)
-          normal[d] = normals[cut.pair][d].value(contact.communicator());
-        normal /= normal.norm();
-        all.emplace_back(-(results[cut.pair].force * normal), results[cut.pair].area);
-      }
+      all.emplace_back(-(results[cut.pair].force * contact.pair(cut.pair).cut()->normal(u)),
+                       results[cut.pair].area);
     return all;
   }
 

@@ -146,7 +146,7 @@ namespace Touchstone
     void
     set_shortening(const unsigned int p, const double length)
     {
-      pairs[p]->set_shortening(length);
+      pairs[p]->cut()->set_shortening(length);
     }
 
     /** @brief Let these material points of the pair @p p have rows from the next update() on, the

@@ -9,6 +9,7 @@
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/point_rows.h>
+#include <touchstone/contact/plane_cut.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/solid/solid.h>
@@ -164,11 +165,11 @@ namespace Touchstone
     double
     entered_overlap(std::size_t k, double from) const;
 
-    /** @brief Draw the sides of a tied pair together by this length, see Pretension. */
-    void
-    set_shortening(const double length)
+    /** @brief Along which the sides of the pair are drawn together; null without pretension. */
+    PlaneCut *
+    cut() const
     {
-      shortening = length;
+      return plane_cut.get();
     }
 
     /** @brief Young's modulus of the softer body, force per area. */
@@ -341,6 +342,7 @@ namespace Touchstone
     std::unique_ptr<Surface>   slave_surface, master_surface;
     std::shared_ptr<Pairing>   pairing_method;
     std::unique_ptr<PointRows> point_rows;
+    std::unique_ptr<PlaneCut>  plane_cut;
     std::vector<ContactRow>    present, committed;
     std::vector<MaterialPoint> points_before;
     Mirrors                    planes;
@@ -360,7 +362,6 @@ namespace Touchstone
     std::vector<double> overlaps;
     const Vector       *displacement = nullptr;
     double              time         = 0.;
-    double              shortening   = 0.;
     unsigned int        searches     = 0;
     bool                started      = false;
     /** See leave_offsets(). */
@@ -374,6 +375,9 @@ namespace Touchstone
     make_pairing(double search_distance) const;
     PairingInput
     pairing_input(double search_distance) const;
+    /** Null without pretension. @throws InputError if it is not plane. */
+    std::unique_ptr<PlaneCut>
+    make_cut() const;
     bool
     find_points() const;
     bool

@@ -54,6 +54,18 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  area_vector(const Face &face)
+  {
+    Tensor<1, dim> sum;
+    for_each_face_point(face, false, [&](const double w, const FaceShapes &, const auto &t) {
+      sum += w * cross_product_3d(t[0], t[1]);
+    });
+    return sum;
+  }
+
+
+
   std::array<double, Face::max_nodes>
   whole_areas(const Face &face, const TraceBasis *basis, const bool reference)
   {

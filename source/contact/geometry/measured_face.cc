@@ -142,4 +142,16 @@ namespace Touchstone
     result.displacement.fill(Tensor<1, dim>());
     return result;
   }
+
+
+
+  Face
+  MeasuredFace::displaced(const Face &face, const Vector &u)
+  {
+    Face result = face;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.displacement[m][d] = u(dim * face.nodes[m] + d);
+    return result;
+  }
 } // namespace Touchstone

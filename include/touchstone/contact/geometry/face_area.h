@@ -13,6 +13,10 @@ namespace Touchstone
   double
   face_area(const Face &face);
 
+  /** @brief The integral of the outward unit normal over a facet in its present position, area. */
+  dealii::Tensor<1, dim>
+  area_vector(const Face &face);
+
   /** @brief The integrals A_i of the shape functions of a face over its facet, area.
    * @param basis     Of a face with hanging nodes, or null.
    * @param reference In the reference state, not in the present position. */

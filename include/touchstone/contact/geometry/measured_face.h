@@ -3,6 +3,7 @@
 #ifndef touchstone_contact_geometry_measured_face_h
 #define touchstone_contact_geometry_measured_face_h
 
+#include <touchstone/algebra/vector.h>
 #include <touchstone/contact/geometry/face_geometry.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -79,6 +80,11 @@ namespace Touchstone
     /** @brief A face where it is without any displacement. */
     static Face
     in_reference(const Face &face);
+
+    /** @brief A face with the displacement @p u, with ghosts: surfaces of tied pairs are not
+     * moved. */
+    static Face
+    displaced(const Face &face, const Vector &u);
 
   protected:
     /** @brief The normal in the middle. */

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A tightened bolt that turns by 90 degrees is moved rigidly: its tension and its strain energy stay
+as they are. By force and by length, locked or not, of degree 1 and 2, with each enforcement, on two
+ranks and after a restart."""
+
+from touchstone_test import (AUGMENTED, DEGREE, MULTIPLIERS, below, check, checks, finish, relative,
+                             run, same, stopped_and_resumed)
+
+scene = checks / "turned_bolt.prm"
+BY_LENGTH = {"Contact pair cut/Pretension force": "",
+             "Contact pair cut/Pretension shortening": "0.2*min(t, 1)"}
+NOT_LOCKED = {"Contact pair cut/Pretension until": ""}
+
+
+def turned(name, settings=None, ranks=1):
+    """Steps 3 to 8 turn what the first two have tightened."""
+    result = run(name, scene, settings, ranks)
+    pull, energy = result.column("cut: tension"), result.column("energy: strain")
+    check(len(pull) == 8, f"{name}: {len(pull)} steps")
+    for step in range(2, 8):
+        below(f"{name}, step {step + 1}: tension", relative(pull[step], pull[1]), 1e-6)
+        below(f"{name}, step {step + 1}: energy", relative(energy[step], energy[1]), 1e-6)
+    # Across the cut there is nothing else: at the end the bolt lies along -y.
+    force = [result.column(f"cut: force {axis}")[-1] / pull[1] for axis in "xyz"]
+    below(f"{name}: direction of the force", abs(force[1] - 1) + abs(force[0]) + abs(force[2]), 1e-6)
+    below(f"{name}: iterations in the last step", result.column("Newton iterations")[-1], 14)
+    return result
+
+
+one = turned("force")
+below("tension", relative(one.column("cut: tension")[1], 80), 1e-7)
+same(one, turned("force-2", ranks=2), 1e-7)
+same(one, stopped_and_resumed("force", scene, {}, 4), 1e-9)
+turned("not locked", NOT_LOCKED)
+turned("length", BY_LENGTH)
+for name, settings in (("multipliers", MULTIPLIERS), ("augmented", AUGMENTED)):
+    below(f"{name}: tension", relative(turned(name, settings).column("cut: tension")[-1], 80), 1e-7)
+for name, settings in (("force", {}), ("length", BY_LENGTH)):
+    two = turned(f"degree 2, {name}", {DEGREE: 2, **settings})
+    same(two, turned(f"degree 2, {name}, 2 ranks", {DEGREE: 2, **settings}, 2), 1e-7)
+finish()
