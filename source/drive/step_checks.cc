@@ -182,6 +182,9 @@ namespace Touchstone
   {
     if (const std::string changing = changing_place(); !changing.empty())
       return changing;
+    // In balance the worst node is that of the largest round-off.
+    if (relative_residual <= scene.newton.residual_tolerance)
+      return "";
     // What supports carry is not out of balance.
     Vector free(unbalanced);
     system->remove_supported(free);
