@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
-on disk; and names the law of a material that gives way, ties that contradict each other, and bodies that start
-to slide."""
+on disk; and names the law of a material that gives way, ties that contradict each other, bodies that start to slide, and parts of bodies that
+nothing holds."""
 # ctest: label = quick
 
 import re
@@ -46,4 +46,8 @@ failed = run("starts_to_slide", checks / "starts_to_slide.prm", fails=True)
 for reason in ("'up' has moved by", " in x on average in this step", "starts to slide as a whole",
                "'Time integration/Scheme = newmark'"):
     check(reason in failed.summary["failure"], f"summary.json does not say \"{reason}\"")
+# A part of a body that supports do not hold while others are: its place, and the remedy.
+failed = run("loose_copies", checks / "loose_copies.prm", fails=True)
+for reason in "the part of body 'block' between (0, 0, 1.5) and (1, 1, 2.5)", "a body of its own":
+    failed.says(reason)
 finish()
