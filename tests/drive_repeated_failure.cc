@@ -19,8 +19,9 @@ main()
                        const unsigned int    changes,
                        const char           *place) {
     NewtonState state;
-    state.residual = residual;
-    state.changes  = changes;
+    state.residual   = residual;
+    state.changes    = changes;
+    state.prescribed = true;
     std::cout << what << ": " << (failures.add(failure, state, place) ? "the same" : "another")
               << std::endl;
   };
@@ -42,5 +43,11 @@ main()
   add("energy", EnergyGain("a gain", 0.02), 1e-12, 0, "d");
   add("less energy", EnergyGain("a gain", 0.005), 1e-12, 0, "d");
   add("as much", EnergyGain("a gain", 0.00501), 1e-12, 0, "d");
+  // Where nodes are in balance nothing of the state tells attempts apart.
+  add("a tool", NotBalanced("a tool", 0.1), 1e-14, 0, "e");
+  add("another part is missing", NotBalanced("a tool", 0.03), 2e-14, 0, "e");
+  add("the same part is missing", NotBalanced("a tool", 0.0301), 1e-14, 0, "e");
+  add("thrown off", LostContact("a body"), 1e-14, 0, "f");
+  add("thrown off again", LostContact("a body"), 1e-14, 0, "f");
   return 0;
 }

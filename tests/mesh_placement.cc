@@ -141,6 +141,7 @@ main()
                                  "set Mirror = w",
                                  "set Mirror = 0, 0, 0",
                                  "set Rotate axis = 0, 0, 0",
+                                 "set Rotate axis = 1, 0, 0",
                                  "set Rotate point = 0, 0, 1",
                                  "set Array = 2, 1, 1",
                                  "set Array spacing = 1, 0, 0"})

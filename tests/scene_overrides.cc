@@ -59,6 +59,11 @@ main()
                {"Time integration/HHT alpha=0.1",
                 "Time integration/Spectral radius=0.5",
                 "Time integration/Mass=lumped"});
+  try_override("how fields are written that are not",
+               {"Output/VTU interval=0", "Output/Format=xdmf", "Output/Unsmoothed values=both"});
+  try_override("axis of an obstacle that does not turn", {"Obstacle floor/Rotate axis=1, 0, 0"});
+  try_override("points of a probe that is no line",
+               {"Probes=place", "Probe place/Body=lower", "Probe place/Points=5"});
   try_override("pairs that are no longer listed",
                {"Contact pairs=", "Contact/Enforcement=penalty"});
   const std::string steps = "Load stepping/", two = steps + "Phases=clamp, pull",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Laws against their closed formulas: stretch and shear of the hyperelastic ones, bars of
-// orthotropic material in each direction, relaxation of the Prony series, thermal strain.
+// orthotropic material in each direction, relaxation of the Prony series, thermal strain, and that
+// a failure of a law is that of one evaluation.
 
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/finite_strain_kernel.h>
@@ -294,6 +295,27 @@ namespace
               << small(response.stress.norm() / parameters.young_modulus, 1e-14) << std::endl;
     tangents(name, keys + expansion);
   }
+  /** The temperature is impossible at time 1: a cell fails then, and never after. */
+  void
+  fails_once(const std::string &name, CellKernel &&kernel)
+  {
+    std::vector<double> positions, rest(kernel.n_dofs(), 0.);
+    std::vector<double> committed(kernel.n_state());
+    const FE_Q<dim>     nodes(1);
+    for (const Point<dim> &x : nodes.get_unit_support_points())
+      positions.insert(positions.end(), {x[0], x[1], x[2]});
+    kernel.start(committed.data());
+    std::cout << name << ": fails at times";
+    for (const double time : {0., 1., 0.5, 0.25})
+      {
+        kernel.set_time(time);
+        kernel.reinit(positions.data(), rest.data(), committed.data());
+        kernel.force();
+        if (!kernel.solved())
+          std::cout << " " << time;
+      }
+    std::cout << std::endl;
+  }
 } // namespace
 
 int
@@ -319,5 +341,13 @@ main()
   thermal("finite-strain von Mises", plastic);
   thermal("neo-Hookean", elastic);
   thermal("Gent", "set Shear modulus = 1\nset Locking stretch = 2\n");
+  const std::string cold =
+    elastic + "subsection Thermal expansion\nset Coefficient = 1\nset Temperature = -1.5*t\nend\n";
+  fails_once("linear elastic",
+             SmallStrainKernel(1,
+                               ElementType::full,
+                               material("set Law = linear elastic\n" + cold)));
+  fails_once("neo-Hookean",
+             FiniteStrainKernel(1, ElementType::full, material("set Law = neo-Hookean\n" + cold)));
   return 0;
 }

@@ -11,9 +11,10 @@
 
 /**
  * @file
- * Formulas of the scene in x, y, z and t, evaluated by muParser. A value that is not finite is
- * recorded and the evaluation goes on; the user of the formulas asks Formulas::check() after a
- * loop, on all ranks together. Throwing at once would stop one rank alone.
+ * Formulas of the scene in x, y, z and t, evaluated by muParser. A value that is not finite, or
+ * not within its bounds, is recorded and the evaluation goes on; the user of the formulas asks
+ * Formulas::check() after a loop, on all ranks together. Throwing at once would stop one rank
+ * alone.
  */
 
 namespace Touchstone
@@ -39,10 +40,14 @@ namespace Touchstone
 
 
 
-  Formula::Formula(const std::string &section, const std::string &key, const std::string &text)
+  Formula::Formula(const std::string   &section,
+                   const std::string   &key,
+                   const std::string   &text,
+                   const FormulaBounds &bounds)
     : section(section)
     , key(key)
     , text(text)
+    , bounds(bounds)
     , of_position(depends_on_place(text))
     , of_time(std::regex_search(text, std::regex("\\bt\\b")))
     , function(std::make_unique<FunctionParser<dim>>(1))
@@ -61,35 +66,46 @@ namespace Touchstone
       function->set_time(t);
     const double result = function->value(x);
     // Only the first failure is kept: it has position and time for the message.
-    if (!std::isfinite(result) && !failure)
+    if (!bounds.admit(result) && !failure)
       failure = Failure{result, x, t};
     return result;
   }
 
 
 
-  std::string
+  std::pair<std::string, std::string>
   Formula::problem() const
   {
+    const bool         finite = std::isfinite(failure->value);
     std::ostringstream out;
     // Decimal points, whatever the locale of the user.
     out.imbue(std::locale::classic());
-    out << "its value is " << (std::isnan(failure->value) ? "not a number" : "infinite") << " at ";
+    out << "its value is ";
+    if (finite)
+      out << failure->value;
+    else
+      out << (std::isnan(failure->value) ? "not a number" : "infinite");
+    out << " at ";
     if (of_position)
       out << "x = " << failure->x[0] << ", y = " << failure->x[1] << ", z = " << failure->x[2]
           << " and ";
     out << "t = " << failure->t;
-    return out.str();
+    if (finite)
+      out << ": " << bounds.reason;
+    return {out.str(), finite ? "has possible values" : "is finite"};
   }
 
 
 
   std::shared_ptr<const Formula>
-  Formulas::add(const std::string &section, const std::string &key, const std::string &text)
+  Formulas::add(const std::string   &section,
+                const std::string   &key,
+                const std::string   &text,
+                const FormulaBounds &bounds)
   {
     if (empty(text))
       return nullptr;
-    all.push_back(std::make_shared<const Formula>(section, key, text));
+    all.push_back(std::make_shared<const Formula>(section, key, text, bounds));
     return all.back();
   }
 
@@ -110,14 +126,17 @@ namespace Touchstone
     const unsigned int who =
       Utilities::MPI::min(all[failed]->failure ? rank : numbers::invalid_unsigned_int,
                           communicator);
-    const std::string problem =
-      Utilities::MPI::broadcast(communicator, rank == who ? all[failed]->problem() : "", who);
+    const auto [problem, demand] =
+      Utilities::MPI::broadcast(communicator,
+                                rank == who ? all[failed]->problem()
+                                            : std::pair<std::string, std::string>(),
+                                who);
     throw InputError(all[failed]->section,
                      all[failed]->key,
                      all[failed]->text,
                      problem,
-                     "give a formula that is finite everywhere on the body and at all times, from "
-                     "t = 0 on");
+                     "give a formula that " + demand +
+                       " everywhere on the body and at all times, from t = 0 on");
   }
 
 
@@ -126,12 +145,13 @@ namespace Touchstone
   check_at_all_steps(const std::string         &section,
                      const std::string         &key,
                      const std::string         &text,
-                     const std::vector<double> &times)
+                     const std::vector<double> &times,
+                     const FormulaBounds       &bounds)
   {
     if (empty(text) || depends_on_place(text))
       return;
     Formulas   one;
-    const auto formula = one.add(section, key, text);
+    const auto formula = one.add(section, key, text, bounds);
     formula->value(Point<dim>(), 0.);
     for (const double t : times)
       formula->value(Point<dim>(), t);

@@ -144,11 +144,12 @@ namespace Touchstone
     if (worst <= tolerance * scale)
       return false;
     if (++n_changes > most)
-      throw NewtonFailure("the tension of the pair '" + cuts[worst_cut].name +
+      throw NotBalanced("the tension of the pair '" + cuts[worst_cut].name +
                           "' does not come to its 'Pretension force': it is " +
                           Patterns::Tools::to_string(forces[worst_cut].first) +
                           " at a shortening of " +
-                          Patterns::Tools::to_string(present.shortening[worst_cut]));
+                          Patterns::Tools::to_string(present.shortening[worst_cut]),
+                        worst / scale);
     // Small changes say more of the round-off in forces than of the compliance.
     constexpr double telling = 1e-6;
     double           change  = 0.;

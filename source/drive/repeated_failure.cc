@@ -42,14 +42,18 @@ namespace Touchstone
     const auto closed = [this](const NewtonState &state) {
       return state.gap <= parameters.gap_tolerance;
     };
+    const bool solved =
+      balanced(last, parameters) && closed(last) && last.changes == 0 && last.prescribed;
+    const bool same_measure = before && before->measure.has_value() == now.measure.has_value() &&
+                              (now.measure ? unchanged(*before->measure, *now.measure) : !solved);
     const bool same_state =
       before &&
       (unchanged(before->last.residual, last.residual) ||
        (balanced(before->last, parameters) && balanced(last, parameters))) &&
       (unchanged(before->last.gap, last.gap) || (closed(before->last) && closed(last))) &&
       before->last.changes == last.changes && before->last.active == last.active;
-    const bool same = same_state && before->type == now.type &&
-                      unchanged(before->measure, now.measure) && before->place == now.place;
+    const bool same =
+      same_state && same_measure && before->type == now.type && before->place == now.place;
     before.emplace(now);
     return same;
   }

@@ -166,12 +166,14 @@ namespace Touchstone
       return false;
     const unsigned int most = 30 + 10 * unknowns.size();
     if (broyden.n_changes() >= most)
-      throw NewtonFailure(
-        "the obstacle '" + tools[unknowns[*bad].tool].name() +
-        "' does not come to balance along '" +
-        FreeMotionParameters::word(unknowns[*bad].component) +
-        "': " + Patterns::Tools::to_string(std::abs(found.missing[*bad]) / found.largest) +
-        " of the largest force is missing");
+      {
+        const double part = std::abs(found.missing[*bad]) / found.largest;
+        throw NotBalanced("the obstacle '" + tools[unknowns[*bad].tool].name() +
+                            "' does not come to balance along '" +
+                            FreeMotionParameters::word(unknowns[*bad].component) + "': " +
+                            Patterns::Tools::to_string(part) + " of the largest force is missing",
+                          part);
+      }
     if (!scheme && broyden.n_changes() == 0 && approach(found.missing, found.largest, results))
       {
         place();

@@ -185,6 +185,9 @@ namespace Touchstone
                         place_of_first(exchanged_rows, "touch now one thing and then another");
     if (!changing.empty() || !exchanging.empty())
       return changing + (changing.empty() || exchanging.empty() ? "" : ", and ") + exchanging;
+    // In balance the worst node is that of the largest round-off.
+    if (relative_residual <= scene.newton.residual_tolerance)
+      return "";
     // What supports carry is not out of balance.
     Vector free(unbalanced);
     system->remove_supported(free);

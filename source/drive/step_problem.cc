@@ -272,6 +272,9 @@ namespace Touchstone
       suspicion =
         "; held by contact alone, perhaps against no resistance: " + system->stabilised() +
         motion_of_loose_bodies();
+    if (!system->unsupported_parts().empty())
+      suspicion += "; not connected with the rest of the body and held by contact alone: " +
+                   system->unsupported_parts() + "; make each such part a body of its own";
     if (!solid.linear())
       if (const std::string place = unstable_place(); !place.empty())
         suspicion += "; the material of " + place +

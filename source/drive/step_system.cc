@@ -255,6 +255,7 @@ namespace Touchstone
                            "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
                            "contact pair.");
       }
+    check_parts(held);
   }
 
 

@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/obstacle_shape.h>
+#include <touchstone/mesh/sharp_tip.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -22,7 +23,7 @@ namespace Touchstone
      * ray lies before its tangent point with the sphere are projected to the sphere, whose radius
      * may be zero.
      */
-    class TippedCone : public AnalyticSurface
+    class TippedCone : public AnalyticSurface, public SharpTip
     {
     public:
       TippedCone(const Point<3>     &tip,
@@ -69,6 +70,24 @@ namespace Touchstone
       {
         const Foot foot = find(x);
         return sign * (foot.on_tip ? foot.from_centre : c * foot.e - s * axis);
+      }
+
+      bool
+      is_before_tip(const Point<3> &x, const double tolerance) const override
+      {
+        return radius == 0. && cross_product_3d(axis, x - apex).norm() <= tolerance;
+      }
+
+      Point<3>
+      tip() const override
+      {
+        return apex;
+      }
+
+      Tensor<1, 3>
+      normal_at_tip() const override
+      {
+        return -sign * axis;
       }
 
     private:

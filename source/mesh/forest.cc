@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/connection.h>
 #include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/hanging_vertices.h>
@@ -163,6 +164,8 @@ namespace Touchstone
 
         const BodyMesh mesh = create(*input.bodies[body].geometry, factor, section, scene_folder);
         check_cells(mesh, section);
+        if (const std::string text = check_connection(mesh, input, body, section); !text.empty())
+          notices.push_back(text);
         if (mesh.bulge > 0. && level == 0 && input.discretisation.degree == 1)
           notices.push_back(
             "The nodes in the middle of edges and faces of the mesh of body '" +

@@ -60,6 +60,12 @@ namespace Touchstone
                        dealii::Patterns::Tools::to_string(rotate_axis),
                        "must not be zero",
                        "give the direction of the axis");
+    if (rotate_angle == "0" && rotate_axis != ObstacleParameters().rotate_axis)
+      throw InputError(section,
+                       "Rotate axis",
+                       dealii::Patterns::Tools::to_string(rotate_axis),
+                       "means nothing without 'Rotate angle'",
+                       "give the angle or remove the axis");
     if (rotate_angle == "0" && rotate_point.norm() > 0.)
       throw InputError(section,
                        "Rotate point",

@@ -106,6 +106,11 @@ namespace Touchstone
              Patterns::Tools::to_string(axis),
              "must not be zero",
              "give the direction of the axis");
+    if (angle == 0. && axis != PlacedGeometry(nullptr).axis)
+      refuse("Rotate axis",
+             Patterns::Tools::to_string(axis),
+             "means nothing without 'Rotate angle'",
+             "give the angle or remove the axis");
     if (angle == 0. && turned_about.norm() > 0.)
       refuse("Rotate point",
              Patterns::Tools::to_string(turned_about),

@@ -3,6 +3,8 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/output/probe_parameters.h>
 
+#include <string>
+
 namespace Touchstone
 {
   namespace Patterns = dealii::Patterns;
@@ -57,6 +59,12 @@ namespace Touchstone
                        Patterns::Tools::to_string(end),
                        "the line has no length",
                        "give another point than 'Point'");
+    if (place != Place::line && n_points != ProbeParameters().n_points)
+      throw InputError(section(),
+                       "Points",
+                       std::to_string(n_points),
+                       "means nothing unless 'Place' is 'line'",
+                       "set that, or remove this key");
     if (place != Place::line && end.norm() > 0.)
       throw InputError(section(),
                        "End point",

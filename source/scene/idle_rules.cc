@@ -103,6 +103,19 @@ namespace Touchstone
         rules.push_back(
           {!pair.obstacle.empty(), section, key, "the pair meets an obstacle, which has no faces"});
     }
+
+
+
+    void
+    add_output(const OutputParameters &output, Rules &rules)
+    {
+      for (const char *const key : {"Format", "Unsmoothed values"})
+        rules.push_back(
+          {output.vtu_interval == 0,
+           "Output",
+           key,
+           "'VTU interval' is 0, so that only a run that fails writes its last state"});
+    }
   } // namespace
 
 
@@ -116,6 +129,7 @@ namespace Touchstone
     add_contact(scene, rules);
     for (const ContactPairParameters &pair : scene.pairs)
       add_pair(pair, rules);
+    add_output(scene.output, rules);
     return rules;
   }
 } // namespace Touchstone

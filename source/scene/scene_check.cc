@@ -6,6 +6,7 @@
 #include <touchstone/scene/combinations.h>
 #include <touchstone/scene/free_motion_rules.h>
 #include <touchstone/scene/scene.h>
+#include <touchstone/solid/thermal_strain.h>
 
 #include <algorithm>
 
@@ -127,9 +128,11 @@ namespace Touchstone
       {
         for (unsigned int d = 0; d < 3; ++d)
           check(body.section(), std::string("Body force ") + "xyz"[d], body.body_force[d]);
-        check(body.section() + "/Material/Thermal expansion",
-              "Temperature",
-              body.material.temperature);
+        check_at_all_steps(body.section() + "/Material/Thermal expansion",
+                           "Temperature",
+                           body.material.temperature,
+                           times,
+                           possible_temperatures(body.material));
         for (const auto &[boundary, condition] : body.boundaries)
           for (const auto &[key, text] : condition.formulas())
             check(body.section() + "/Boundary " + boundary, key, text);

@@ -161,6 +161,8 @@ namespace Touchstone
     for (unsigned int q = 0; q < n_points; ++q)
       {
         const unsigned int at = q * law->n_state();
+        // Laws need to tell of failures only; that of another cell or attempt must not stay.
+        points[q].response.solved = true;
         law->respond({deformation(q), committed_state + at, step_length, points[q].position, time},
                      demand,
                      points[q].response,

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 // Thermal expansion of any law (doc/materials.md, "Thermal strain").
 namespace Touchstone
@@ -190,6 +192,25 @@ namespace Touchstone
 
 
 
+  FormulaBounds
+  possible_temperatures(const MaterialParameters &material)
+  {
+    FormulaBounds result;
+    if (!material.thermal())
+      return result;
+    const double limit = -1. / material.thermal_coefficient;
+    (material.thermal_coefficient > 0. ? result.lower : result.upper) = limit;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << "1 + 'Coefficient' times this, the length of the material relative to that without "
+           "thermal strain, is positive only "
+        << (material.thermal_coefficient > 0. ? "above " : "below ") << limit;
+    result.reason = out.str();
+    return result;
+  }
+
+
+
   void
   check_temperatures(const Solid &solid, const double t)
   {
@@ -199,7 +220,8 @@ namespace Touchstone
       of_body.push_back(body.material.thermal()
                           ? all.add(body.section() + "/Material/Thermal expansion",
                                     "Temperature",
-                                    body.material.temperature)
+                                    body.material.temperature,
+                                    possible_temperatures(body.material))
                           : nullptr);
     // Nothing but positions is asked for: any element does.
     const FE_Q<dim> scalar_fe(1);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
 on disk; and names the law of a material that gives way, ties that contradict each other, bodies that start
-to slide, and rows that go from one face of the master to another."""
+to slide, rows that go from one face of the master to another, and parts of bodies that nothing holds."""
 # ctest: label = quick
 
 import re
@@ -53,4 +53,8 @@ for ranks in 1, 2:
     for reason in ("0 contact rows changed, 9 went from a face, edge or vertex of the master to another one",
                    "rows of pair 'c' that touch now one thing and then another, one of them at (0.4, 0.4, 0) of body 'up'"):
         check(reason in failed.summary["failure"], f"{failed}: {failed.summary['failure']}")
+# A part of a body that supports do not hold while others are: its place, and the remedy.
+failed = run("loose_copies", checks / "loose_copies.prm", fails=True)
+for reason in "the part of body 'block' between (0, 0, 1.5) and (1, 1, 2.5)", "a body of its own":
+    failed.says(reason)
 finish()

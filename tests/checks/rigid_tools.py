@@ -2,11 +2,11 @@
 # ctest: goldens = cone_obstacle, turning_obstacle, turning_roller, stl_plate
 """Rigid tools: a cone against the force of the half space, a turned tool is the tool in another place,
 a block on a plane that turns follows it, tied without stress with each enforcement, or held by friction,
-on two ranks as well; friction of a roller that turns on the spot has the moment mu R N."""
+on two ranks as well; a sharp tip on a node; friction of a roller that turns on the spot has the moment mu R N."""
 
 import math
 
-from touchstone_test import ENFORCEMENT, ENFORCEMENTS, STEPS, below, check, finish, golden, relative, run, same, tests
+from touchstone_test import ENFORCEMENT, ENFORCEMENTS, STEPS, below, check, checks, finish, golden, relative, run, same, tests
 
 # A quarter of F = gamma 2 / pi E / (1 - nu^2) delta^2 tan(alpha): Sneddon's force with the correction
 # gamma for the displacement along the surface (Hay, Bolshakov and Pharr 1999). A block is stiffer
@@ -23,6 +23,15 @@ near = -run("cone_8", tests / "cone_obstacle.prm", FINE).force("contact")[2]
 far = -run("cone_16", tests / "cone_obstacle.prm", {**FINE, **LARGE}).force("contact")[2]
 print(f"cone in blocks of 8 and 16: {near:.4f}, {far:.4f}, half space {2 * far - near:.4f}, exact {exact:.4f}")
 below("cone, force deviates from that of the half space", relative(2 * far - near, exact), 0.01)
+
+# A sharp tip on a node of a whole block: no force across, whatever solves the contact; and a blunter one.
+TIP = checks / "cone_on_node.prm"
+for name, settings, ranks in [("cone_on_node", {}, 1), ("cone_on_node_2", {}, 2),
+                              *((f"cone_on_node_{e}", {ENFORCEMENT: e}, 1) for e in ENFORCEMENTS),
+                              ("cone_on_node_80", {"Obstacle indenter/Half angle": 80}, 1)]:
+    pressed = run(name, TIP, settings, ranks)
+    across = math.hypot(*pressed.force("contact")[:2]) / abs(pressed.force("contact")[2])
+    below(f"{pressed}, force across a symmetric block", across, 1e-6)
 
 # The same tool from another place. The plate is the same after a quarter turn.
 turned = run("cone_turned", tests / "cone_obstacle.prm",

@@ -3,6 +3,7 @@
 #ifndef touchstone_base_non_convergence_h
 #define touchstone_base_non_convergence_h
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -25,11 +26,11 @@ namespace Touchstone
     }
 
     /** @brief How bad the failure is, beside what the last Newton iteration says, so that attempts
-     * can be told apart; no unit. */
-    virtual double
+     * can be told apart; no unit. None if nothing but the last iteration tells. */
+    virtual std::optional<double>
     measure() const
     {
-      return 0.;
+      return {};
     }
   };
 
@@ -37,6 +38,28 @@ namespace Touchstone
   class NewtonFailure : public NonConvergence
   {
     using NonConvergence::NonConvergence;
+  };
+
+  /** @brief Nodes are in balance, but what is balanced around Newton's method does not come to it:
+   * an obstacle that forces move, or the tension of a bolt. */
+  class NotBalanced : public NonConvergence
+  {
+  public:
+    /** @param missing Force that is missing, relative to the largest. */
+    NotBalanced(const std::string &what, const double missing)
+      : NonConvergence(what)
+      , missing(missing)
+    {
+    }
+
+    std::optional<double>
+    measure() const override
+    {
+      return missing;
+    }
+
+  private:
+    double missing;
   };
 
   /** @brief The active set came back to one it had before, again and again. */
@@ -95,7 +118,7 @@ namespace Touchstone
     {
     }
 
-    double
+    std::optional<double>
     measure() const override
     {
       return step;
@@ -156,7 +179,7 @@ namespace Touchstone
     {
     }
 
-    double
+    std::optional<double>
     measure() const override
     {
       return gain;

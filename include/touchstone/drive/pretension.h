@@ -39,7 +39,7 @@ namespace Touchstone
      * @brief Change the shortenings if the forces in the state that has been found, of the
      * displacement @p u with ghosts, are not those that are given. Collective.
      * @return whether they were changed, so that the state has to be found anew.
-     * @throws NewtonFailure after too many changes.
+     * @throws NotBalanced after too many changes.
      */
     bool
     correct(const Vector &u);

@@ -38,7 +38,9 @@ namespace Touchstone
      * @param last State of the last Newton iteration; its residual is NaN if there was none.
      * @param place Text that identifies the position of the failure in the model.
      * @return whether the previous attempt failed with the same reason, at the same position,
-     * equally bad and far from a solution, and with as many active and changing contact rows.
+     * equally bad and far from a solution, and with as many active and changing contact rows. All
+     * iterations that end in balance are alike: after these the measure of the failure must be the
+     * same, and one without a measure never counts as repeated.
      */
     bool
     add(const NonConvergence &failure, const NewtonState &last, const std::string &place);
@@ -46,10 +48,10 @@ namespace Touchstone
   private:
     struct Attempt
     {
-      std::type_index type;
-      double          measure;
-      std::string     place;
-      NewtonState     last;
+      std::type_index       type;
+      std::optional<double> measure;
+      std::string           place;
+      NewtonState           last;
     };
     const NewtonParameters &parameters;
     std::optional<Attempt>  before;

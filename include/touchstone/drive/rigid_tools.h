@@ -47,7 +47,7 @@ namespace Touchstone
      * @brief Move the obstacles if they are not in balance in the state that has been found, of the
      * displacement @p u with ghosts. Collective.
      * @return whether they were moved, so that the state has to be found anew.
-     * @throws NewtonFailure after too many changes. @throws NothingResists @throws ToolSlides
+     * @throws NotBalanced after too many changes. @throws NothingResists @throws ToolSlides
      */
     bool
     correct(const Vector &u);

@@ -87,7 +87,8 @@ namespace Touchstone
     void
     recover(const Vector &increment);
 
-    /** @throws InputError for bodies that have no support and no contact pair. */
+    /** @throws InputError for bodies, and for parts of bodies that are not connected with the rest,
+     * that have no support and no contact pair. */
     void
     check_bodies_without_support(const Vector &u);
 
@@ -135,6 +136,14 @@ namespace Touchstone
       return unsupported_motions;
     }
 
+    /** @brief Parts of bodies that are not connected with the rest and that supports leave free, in
+     * words, by check_bodies_without_support(). */
+    const std::string &
+    unsupported_parts() const
+    {
+      return free_parts;
+    }
+
     /** @brief Bodies that were stabilised in this step because only contact holds them. */
     const std::set<unsigned int> &
     loose_bodies() const
@@ -158,7 +167,7 @@ namespace Touchstone
     std::unique_ptr<CondensedSystem> condensed;
     /** Solution of the dofs beyond the displacements: multipliers. */
     std::vector<double>    extra;
-    std::string            free_motions, unsupported_motions;
+    std::string            free_motions, unsupported_motions, free_parts;
     std::set<unsigned int> loose;
     /** Diameter of the smallest cell, length. */
     double length;
@@ -183,6 +192,9 @@ namespace Touchstone
     constrain(const dealii::IndexSet &needed);
     void
     change_basis(const dealii::IndexSet &needed);
+    /** See check_bodies_without_support(). @param held What supports hold. */
+    void
+    check_parts(const std::vector<Condition> &held);
     /** Stabilise bodies that nothing but contact holds. */
     void
     check_supports(const State &state);

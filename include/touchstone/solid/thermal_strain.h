@@ -3,6 +3,7 @@
 #ifndef touchstone_solid_thermal_strain_h
 #define touchstone_solid_thermal_strain_h
 
+#include <touchstone/base/formula.h>
 #include <touchstone/solid/material_law.h>
 
 #include <memory>
@@ -17,9 +18,13 @@ namespace Touchstone
   with_thermal_strain(const MaterialParameters                 &material,
                       const std::shared_ptr<const MaterialLaw> &law);
 
+  /** @brief The temperatures at which the material has a size: 1 + aT > 0. */
+  FormulaBounds
+  possible_temperatures(const MaterialParameters &material);
+
   /** @brief Tell, after a material law has failed, whether a temperature is to blame: laws know
    * numbers only. Collective.
-   * @throws InputError on all ranks if a temperature is not finite at time @p t. */
+   * @throws InputError on all ranks if a temperature is not possible at time @p t. */
   void
   check_temperatures(const Solid &solid, double t);
 } // namespace Touchstone

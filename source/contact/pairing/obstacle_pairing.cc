@@ -5,11 +5,13 @@
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/mesh/rotation.h>
+#include <touchstone/mesh/sharp_tip.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
 #include <memory>
+#include <vector>
 
 // Contact with a rigid obstacle whose surface is given by a formula: projection, normal and their
 // derivatives come from AnalyticSurface, so that no search and no communication is needed. The
@@ -30,6 +32,7 @@ namespace Touchstone
       {
         const ObstacleParameters &o     = *input.obstacle;
         surface                         = o.shape.make()->surface();
+        tip                             = dynamic_cast<const SharpTip *>(surface.get());
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
           translation[d] =
@@ -50,8 +53,10 @@ namespace Touchstone
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
-            const PointContact there = contact(input.slave->position(nodes[k], u), now);
-            ContactRow        &row   = rows[k];
+            const Point<dim>   at = input.slave->position(nodes[k], u);
+            const PointContact there =
+              before_tip(k, now) ? contact_of_tip(at, now) : contact(at, now);
+            ContactRow &row = rows[k];
             row.stencil.clear();
             row.motion      = now;
             row.normal      = there.normal;
@@ -69,12 +74,25 @@ namespace Touchstone
           {
             rows[k].derivative.reset();
             // Open rows contribute neither force nor condition.
-            if (rows[k].was_active)
+            if (!rows[k].was_active)
+              continue;
+            if (before_tip(k, motion(time)))
+              rows[k].derivative = derivative_at_tip(rows[k].slave);
+            else
               rows[k].derivative = derivative_at(input.slave->position(nodes[k], u),
                                                  time,
                                                  rows[k].slave,
                                                  rows[k].size);
           }
+      }
+
+      void
+      commit_positions(const Vector &u) override
+      {
+        committed.clear();
+        if (tip != nullptr)
+          for (const SurfaceNode &node : input.slave->owned_nodes())
+            committed.push_back(input.slave->position(node, u));
       }
 
       std::shared_ptr<const RowDerivative>
@@ -170,7 +188,39 @@ namespace Touchstone
         return {now.direction(surface->normal(y)), now.direction(y - surface->project(y))};
       }
 
-      std::shared_ptr<const AnalyticSurface>          surface;
+      /** Whether node @p k was on the axis of a sharp tip when the step began, but for round-off.
+       * Iterates do not decide: they slip off the tip to a side that round-off chooses. */
+      bool
+      before_tip(const std::size_t k, const RigidMotion &now) const
+      {
+        constexpr double   round_off = 1e-6;
+        const SurfaceNode &node      = input.slave->owned_nodes()[k];
+        return tip != nullptr &&
+               tip->is_before_tip(now.back(committed.empty() ? node.reference : committed[k]),
+                                  round_off * node.size);
+      }
+
+      /** Of a point that the tip pushes along its axis. */
+      PointContact
+      contact_of_tip(const Point<dim> &x, const RigidMotion &now) const
+      {
+        return {now.direction(tip->normal_at_tip()), now.direction(now.back(x) - tip->tip())};
+      }
+
+      static std::shared_ptr<const RowDerivative>
+      derivative_at_tip(const Index node)
+      {
+        RowDerivativeBuilder builder(0);
+        builder.index(node);
+        builder.result->gap_vector[0] = unit_symmetric_tensor<dim>();
+        return builder.result;
+      }
+
+      std::shared_ptr<const AnalyticSurface> surface;
+      /** The same, if it has a tip; else null. */
+      const SharpTip *tip = nullptr;
+      /** Of the slave nodes when the step began; empty in the reference state. */
+      std::vector<Point<dim>>                         committed;
       Formulas                                        formulas;
       std::array<std::shared_ptr<const Formula>, dim> translation;
       bool                                            turns = false;
