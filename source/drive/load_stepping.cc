@@ -7,6 +7,7 @@
 #include <touchstone/contact/turned_surfaces.h>
 #include <touchstone/contact/unheld_edges.h>
 #include <touchstone/drive/simulation.h>
+#include <touchstone/solid/turned_bodies.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -104,6 +105,8 @@ namespace Touchstone
         stop(reason, at);
         return;
       }
+    for (const std::string &text : turned_bodies(solid, problem->state().ghosted_displacement()))
+      warnings.add(text);
     // In explicit runs bodies may hit each other's edges at any moment.
     if (problem->cycle_counts() == nullptr)
       for (const auto check : {unheld_edges, turned_surfaces, narrow_contact})
