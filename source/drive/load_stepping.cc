@@ -8,6 +8,7 @@
 #include <touchstone/contact/turned_surfaces.h>
 #include <touchstone/contact/unheld_edges.h>
 #include <touchstone/drive/simulation.h>
+#include <touchstone/solid/turned_bodies.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -107,6 +108,8 @@ namespace Touchstone
       }
     // Beside the preconditioner there is little room for what the checks make.
     give_back_free_memory();
+    for (const std::string &text : turned_bodies(solid, problem->state().ghosted_displacement()))
+      warnings.add(text);
     // In explicit runs bodies may hit each other's edges at any moment.
     if (problem->cycle_counts() == nullptr)
       for (const auto check : {unheld_edges, turned_surfaces, narrow_contact})

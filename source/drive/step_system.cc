@@ -140,14 +140,21 @@ namespace Touchstone
                                                                 state.u,
                                                                 system->keep_symmetric,
                                                                 system->terms);
+    bool unsymmetric = !parts.boundary_conditions.follower_pressure().empty();
+    for (const auto &load : parts.boundary_conditions.surface_loads())
+      if (load.resultant && load.resultant->follows())
+        {
+          load.resultant->add_stiffness(state.time, state.u, system->keep_symmetric, system->terms);
+          unsymmetric = true;
+        }
     for (std::size_t k = before; k < system->terms.size(); ++k)
       for (auto &entry : system->terms[k].left)
         // Loads at the end of the step enter the balance with this weight, and so does their
         // stiffness.
         entry.second *= parts.integration.weight();
-    // The stiffness of a pressure is unsymmetric in general (doc/theory.md 2.3), that of springs is
-    // not; systems that have to be symmetric get its symmetric part.
-    if (!parts.boundary_conditions.follower_pressure().empty())
+    // The stiffness of pressures and moments is unsymmetric in general (doc/theory.md 2.3), that of
+    // springs is not; systems that have to be symmetric get its symmetric part.
+    if (unsymmetric)
       system->symmetric = system->symmetric && system->keep_symmetric;
   }
 

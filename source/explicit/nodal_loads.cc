@@ -27,6 +27,7 @@ namespace Touchstone
       BoundaryIds::value_type     boundary;
       /** 1 if the cross product of the tangents points out of the cell, else -1. */
       double sign;
+      bool   owned;
     };
 
     double
@@ -58,7 +59,8 @@ namespace Touchstone
                 for (unsigned int k = 0; k < 4; ++k)
                   face.nodes[k] =
                     map.nodes(c)[((f % 2) << d) | ((k & 1) << e) | (((k >> 1) & 1) << g)];
-                face.sign = f % 2 == 1 ? 1. : -1.;
+                face.sign  = f % 2 == 1 ? 1. : -1.;
+                face.owned = map.cells()[c].owned;
                 result.push_back(face);
               }
         }
@@ -193,9 +195,18 @@ namespace Touchstone
         return n.norm() * Point<dim>::unit_vector(d);
       });
     add_with(load.pressure, [](const Point<dim> &, const Tensor<1, dim> &n) { return -n; });
-    for (unsigned int k = 0; load.resultant && k < 2 * dim; ++k)
+    if (!load.resultant)
+      return;
+    if (load.resultant->follows())
+      {
+        resultants.push_back({load.resultant, points, {}});
+        for (const PressurePoint &point : points)
+          resultants.back().areas.push_back(normal(point).norm());
+        return;
+      }
+    for (unsigned int k = 0; k < 2 * dim; ++k)
       add_with(load.resultant->functions()[k], [&](const Point<dim> &x, const Tensor<1, dim> &n) {
-        return n.norm() * load.resultant->traction_of_unit(k, x);
+        return n.norm() * ResultantLoad::traction_of_unit(k, load.resultant->at_start(), x);
       });
   }
 
@@ -232,6 +243,7 @@ namespace Touchstone
               PressurePoint        point;
               const Point<dim - 1> x = quadrature.point(q);
               point.nodes            = face.nodes;
+              point.owned            = face.owned;
               point.sign             = face.sign * quadrature.weight(q);
               for (unsigned int k = 0; k < 4; ++k)
                 {
@@ -273,6 +285,7 @@ namespace Touchstone
               force[point.nodes[a]] += point.shapes[a] * whole;
           }
       }
+    add_resultants(t, u, force);
     for (const Spring &spring : springs)
       {
         Tensor<1, dim> moved;

@@ -229,7 +229,7 @@ namespace Touchstone
                       parse("Traction y", condition.traction_y),
                       parse("Traction z", condition.traction_z)}},
                     follows ? nullptr : pressure,
-                    make_resultant(id, condition, section)};
+                    make_resultant(b, id, condition, section)};
     if (condition.spring_normal > 0. || condition.spring_tangential > 0.)
       springs.add({id, condition.spring_normal, condition.spring_tangential});
     if (load.resultant || load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
@@ -281,7 +281,8 @@ namespace Touchstone
 
 
   std::shared_ptr<const ResultantLoad>
-  BoundaryConditions::make_resultant(const BoundaryIds        &id,
+  BoundaryConditions::make_resultant(const unsigned int        b,
+                                     const BoundaryIds        &id,
                                      const BoundaryParameters &condition,
                                      const std::string        &section)
   {
@@ -296,7 +297,8 @@ namespace Touchstone
       }
     const std::vector<double> &x     = condition.reference_point;
     const Point<dim>           point = x.empty() ? Point<dim>() : Point<dim>(x[0], x[1], x[2]);
-    return std::make_shared<ResultantLoad>(solid, id, functions, x.empty() ? nullptr : &point);
+    return std::make_shared<ResultantLoad>(
+      solid, id, functions, x.empty() ? nullptr : &point, solid.bodies[b].material.finite_strain());
   }
 
 

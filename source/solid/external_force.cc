@@ -27,9 +27,9 @@ namespace Touchstone
 
 
 
-  /** Consistent nodal forces of all loads at time t (force). Tractions, dead pressures and body
-   * forces are integrated over the reference state; only the follower pressure depends on u.
-   * Collective. */
+  /** Consistent nodal forces of all loads at time t (force), integrated over the reference state.
+   * Of u depend the follower pressure, springs, and moments on bodies at finite strain. Collective.
+   */
   void
   BoundaryConditions::external_force(const double t, const Vector &u, Vector &force) const
   {
@@ -37,7 +37,7 @@ namespace Touchstone
     following.add_force(t, u, force);
     springs.add_force(u, force);
     add_body_forces(t, force);
-    add_tractions(t, force);
+    add_tractions(t, u, force);
     add_set_forces(t, force);
     formulas.check(solid.communicator);
   }
@@ -49,24 +49,39 @@ namespace Touchstone
    * has one point per direction more than the element needs, as tractions are arbitrary functions
    * of position. */
   void
-  BoundaryConditions::add_tractions(const double t, Vector &force) const
+  BoundaryConditions::add_tractions(const double t, const Vector &u, Vector &force) const
   {
     if (loads.empty())
       return;
-    FEFaceValues<dim>  values(solid.mapping,
+    // Where the boundaries of forces and moments are that follow them.
+    Vector                            ghosted;
+    std::vector<ResultantLoad::Place> places(loads.size());
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      if (const auto &resultant = loads[k].resultant)
+        {
+          if (resultant->follows() && ghosted.size() == 0)
+            ghosted = solid.ghosted(u);
+          places[k] = resultant->follows() ? resultant->place(ghosted) : resultant->at_start();
+        }
+    const FEValuesExtractors::Vector displacement(0);
+    FEFaceValues<dim>                values(solid.mapping,
                              solid.fe,
                              QGauss<dim - 1>(solid.fe.degree + 2),
                              update_values | update_normal_vectors | update_JxW_values |
                                update_quadrature_points);
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    std::vector<Index>               dofs(solid.fe.n_dofs_per_cell());
+    std::vector<Tensor<1, dim>>      moved(values.n_quadrature_points);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
-          for (const Load &load : loads)
-            if (cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
+          for (std::size_t k = 0; k < loads.size(); ++k)
+            if (const Load &load = loads[k];
+                cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
               {
                 values.reinit(cell, f);
                 cell->get_dof_indices(dofs);
+                if (load.resultant && load.resultant->follows())
+                  values[displacement].get_function_values(ghosted, moved);
                 for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                   {
                     const Point<dim> x = values.quadrature_point(q);
@@ -75,7 +90,10 @@ namespace Touchstone
                     for (unsigned int d = 0; d < dim; ++d)
                       traction[d] += evaluate(load.traction[d], x, t);
                     if (load.resultant)
-                      traction += load.resultant->traction(x, t);
+                      traction +=
+                        load.resultant->traction(places[k],
+                                                 load.resultant->follows() ? x + moved[q] : x,
+                                                 t);
                     for (unsigned int i = 0; i < dofs.size(); ++i)
                       if (solid.owned.is_element(dofs[i]))
                         force(dofs[i]) += values.shape_value(i, q) *

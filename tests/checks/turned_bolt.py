@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A tightened bolt that turns by 90 degrees is moved rigidly: its tension and its strain energy stay
 as they are. By force and by length, locked or not, of degree 1 and 2, with each enforcement, on two
-ranks and after a restart."""
+ranks and after a restart. A law for small strain, for which such a turn is a strain, says so."""
 
 from touchstone_test import (AUGMENTED, DEGREE, MULTIPLIERS, below, check, checks, finish, relative,
                              run, same, stopped_and_resumed)
 
 scene = checks / "turned_bolt.prm"
+LINEAR = {f"Body {body}/Material/Law": "linear elastic" for body in ("lower", "upper")}
 BY_LENGTH = {"Contact pair cut/Pretension force": "",
              "Contact pair cut/Pretension shortening": "0.2*min(t, 1)"}
 NOT_LOCKED = {"Contact pair cut/Pretension until": ""}
@@ -38,4 +39,23 @@ for name, settings in (("multipliers", MULTIPLIERS), ("augmented", AUGMENTED)):
 for name, settings in (("force", {}), ("length", BY_LENGTH)):
     two = turned(f"degree 2, {name}", {DEGREE: 2, **settings})
     same(two, turned(f"degree 2, {name}, 2 ranks", {DEGREE: 2, **settings}, 2), 1e-7)
+
+
+def told(result):
+    """Bodies whose law does not turn with them."""
+    return [body for body in ("lower", "upper") for text in result.summary["warnings"]
+            if f"body '{body}'" in text and "has turned by" in text]
+
+
+def turn_by(angle):
+    """Settings: both ends turn by so much."""
+    return {f"Obstacle {end}/Rotate angle": f"{angle}*max(t - 1, 0)" for end in ("foot", "head")}
+
+
+check(told(one) == [], f"neo-Hookean: {one.summary['warnings']}")
+for name, settings in (("linear", {}), ("linear, 3 degrees", turn_by(3))):
+    result = run(name, scene, {**LINEAR, **settings})
+    check(told(result) == ["lower", "upper"], f"{name}: {result.summary['warnings']}")
+result = run("linear, 1 degree", scene, {**LINEAR, **turn_by(1)})
+check(told(result) == [], f"linear, 1 degree: {result.summary['warnings']}")
 finish()

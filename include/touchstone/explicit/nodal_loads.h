@@ -16,7 +16,8 @@ namespace Touchstone
    *
    * Loads that are constant are integrated once. Of loads whose formula names the time alone the
    * formula is evaluated once in a cycle and multiplies nodal forces that are integrated once. Only
-   * formulas of both, and pressures that follow the surface, are integrated in each cycle.
+   * formulas of both, pressures that follow the surface, and moments on bodies at finite strain are
+   * integrated in each cycle.
    */
   class NodalLoads
   {
@@ -27,10 +28,11 @@ namespace Touchstone
     bool
     empty() const
     {
-      return loads.empty() && pressures.empty() && springs.empty();
+      return loads.empty() && pressures.empty() && springs.empty() && resultants.empty();
     }
 
-    /** @brief Set the forces on the owned nodes at time @p t in the displacement @p u. */
+    /** @brief Set the forces on the owned nodes at time @p t in the displacement @p u. Collective
+     * unless empty(), which is the same on all ranks where it matters. */
     void
     evaluate(double t, const NodeField &u, NodeField &force) const;
 
@@ -72,12 +74,23 @@ namespace Touchstone
       std::array<double, 4>                      shapes;
       std::array<std::array<double, 4>, dim - 1> derivatives;
       double                                     sign;
+      /** Of a cell that this rank owns: sums over ranks count each point once. */
+      bool owned;
     };
 
     struct Pressure
     {
       Function                   function;
       std::vector<PressurePoint> points;
+    };
+
+    /** Force and moment on a boundary of a body at finite strain, on all ranks. */
+    struct Resultant
+    {
+      std::shared_ptr<const ResultantLoad> load;
+      std::vector<PressurePoint>           points;
+      /** Undeformed areas of the points. */
+      std::vector<double> areas;
     };
 
     /** A quadrature point of springs to the ground: stiffnesses times the weight. */
@@ -89,10 +102,11 @@ namespace Touchstone
       double                      across, along;
     };
 
-    const NodeMap        &map;
-    std::vector<Load>     loads;
-    std::vector<Pressure> pressures;
-    std::vector<Spring>   springs;
+    const NodeMap         &map;
+    std::vector<Load>      loads;
+    std::vector<Pressure>  pressures;
+    std::vector<Resultant> resultants;
+    std::vector<Spring>    springs;
 
     void
     add(const Function &function, std::vector<LoadPoint> &&points);
@@ -100,6 +114,9 @@ namespace Touchstone
     add_body_forces(const BoundaryConditions &conditions);
     void
     add_surface_loads(const BoundaryConditions &conditions, const Solid &solid);
+    /** Present forces of resultants. Collective. */
+    void
+    add_resultants(double t, const NodeField &u, NodeField &force) const;
     /** Tractions, a pressure that keeps its direction, and a resultant. */
     void
     add_tractions(const BoundaryConditions::Load &load, const std::vector<PressurePoint> &points);

@@ -78,7 +78,8 @@ namespace Touchstone
     BoundaryConditions(const Forest &forest, const Solid &solid);
 
     /** @brief Nodal forces of tractions, pressures and body forces at time @p t in the displacement
-     * @p u, which matters to pressures that follow the surface only. Collective.
+     * @p u, which matters to pressures that follow the surface, to springs, and to moments on
+     * bodies at finite strain. Collective.
      * @throws InputError if a formula is not finite. */
     void
     external_force(double t, const Vector &u, Vector &force) const;
@@ -148,7 +149,10 @@ namespace Touchstone
     bool
     depends_on_displacement() const
     {
-      return !following.empty() || !springs.empty();
+      return !following.empty() || !springs.empty() ||
+             std::any_of(loads.begin(), loads.end(), [](const Load &load) {
+               return load.resultant && load.resultant->follows();
+             });
     }
 
     /**
@@ -238,7 +242,8 @@ namespace Touchstone
                  Supported         &supported);
     /** Null if there is neither force nor moment. Collective. */
     std::shared_ptr<const ResultantLoad>
-    make_resultant(const BoundaryIds        &boundary,
+    make_resultant(unsigned int              body,
+                   const BoundaryIds        &boundary,
                    const BoundaryParameters &condition,
                    const std::string        &section);
     /** Displacements and loads of a boundary.
@@ -259,7 +264,7 @@ namespace Touchstone
     void
     add_forces_on_mass(double t, Vector &force) const;
     void
-    add_tractions(double t, Vector &force) const;
+    add_tractions(double t, const Vector &u, Vector &force) const;
     template <typename Visit>
     void
     for_each_node_on(const BoundaryIds &boundary, const Visit &visit) const;
