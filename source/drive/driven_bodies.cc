@@ -7,6 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // First guesses of steps for bodies that supports move as they are (doc/theory.md 5).
@@ -79,19 +80,22 @@ namespace Touchstone
       std::vector<Tensor<1, dim>> motions;
       for (unsigned int body = 0; body < solid.n_bodies(); ++body)
         motions.push_back(closest_translation(&sums[n_sums * body]));
-      // What the supports of a body miss at most before and after.
-      std::vector<double> misses(2 * solid.n_bodies());
+      // What supports of a body prescribe at most, and what they miss before and after.
+      std::vector<double> largest(3 * solid.n_bodies());
       for (const auto &support : conditions.prescribed_directions())
         {
-          const double  miss  = missing(support, t, u);
-          double *const worst = &misses[2 * support.body];
-          worst[0]            = std::max(worst[0], std::abs(miss));
-          worst[1] = std::max(worst[1], std::abs(miss - support.direction * motions[support.body]));
+          const double                miss = missing(support, t, u);
+          const std::array<double, 3> here = {
+            {support.displacement(t), miss, miss - support.direction * motions[support.body]}};
+          for (unsigned int k = 0; k < 3; ++k)
+            largest[3 * support.body + k] =
+              std::max(largest[3 * support.body + k], std::abs(here[k]));
         }
-      Utilities::MPI::max(misses, solid.communicator, misses);
+      Utilities::MPI::max(largest, solid.communicator, largest);
       constexpr double round_off = 1e-10;
       for (unsigned int body = 0; body < solid.n_bodies(); ++body)
-        if (misses[2 * body + 1] > round_off * misses[2 * body])
+        if (const double *const of_body = &largest[3 * body];
+            of_body[1] <= round_off * of_body[0] || of_body[2] > round_off * of_body[1])
           motions[body] = 0.;
       return motions;
     }
@@ -117,7 +121,7 @@ namespace Touchstone
 
 
 
-  void
+  bool
   move_driven_bodies(const BoundaryConditions &conditions,
                      const Contact            &contact,
                      const Solid              &solid,
@@ -129,9 +133,10 @@ namespace Touchstone
                     motions.end(),
                     [](const Tensor<1, dim> &motion) { return motion.norm_square() == 0.; }) ||
         deepest_overlap(contact, motions) > 1.)
-      return;
+      return false;
     const auto bodies = bodies_of_unknowns(solid);
     for (std::size_t k = 0; k < bodies.size(); ++k)
       u.begin()[k] += motions[bodies[k]][solid.owned.nth_index_in_set(k) % dim];
+    return true;
   }
 } // namespace Touchstone

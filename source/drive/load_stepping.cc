@@ -214,11 +214,12 @@ namespace Touchstone
   bool
   Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
   {
-    if (failure.shorter_step_may_help() && problem->next_attempt_differs())
+    if (const std::string how = problem->next_attempt();
+        failure.shorter_step_may_help() && !how.empty())
       {
         const std::string reason = describe(failure, /*repeated=*/false);
         problem->rollback();
-        progress.repeat_step(reason);
+        progress.repeat_step(reason, how);
         return true;
       }
     const bool repeated = repeated_failure.add(failure, last_state, problem->difficulty().position);

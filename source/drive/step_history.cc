@@ -116,7 +116,22 @@ namespace Touchstone
     u = committed_u;
     for (Stateful *part : parts)
       part->rollback();
-    forcing_term.end_attempt();
+    // What only a bad first guess was too much for is no reason to iterate in another way.
+    if (!guessed)
+      forcing_term.end_attempt();
+    guessed = false;
+  }
+
+
+
+  std::string
+  StepProblem::next_attempt() const
+  {
+    if (guessed)
+      return "from the displacement that the step begins with";
+    if (forcing_term.next_attempt_differs() && system->may_change_linearisation())
+      return "linearised consistently from the first iteration on";
+    return "";
   }
 
 

@@ -142,8 +142,8 @@ namespace Touchstone
     pretension.begin_step(t);
     tools.begin_step(t);
     integration->begin_step(time, u);
-    if (integration->follows_supports())
-      move_driven_bodies(boundary_conditions, contact, solid, time, u);
+    guessed = integration->follows_supports() &&
+              move_driven_bodies(boundary_conditions, contact, solid, time, u);
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
@@ -173,7 +173,9 @@ namespace Touchstone
     constexpr unsigned int most_rounds = 10;
     for (unsigned int round = 0; round <= most_rounds; ++round)
       {
-        n_iterations += newton.solve(*this, observer);
+        // A guess may balance what no system of equations has been made for: rows that conflict
+        // with supports are found in it.
+        n_iterations += newton.solve(*this, observer, /*least=*/guessed ? 1 : 0);
         // A correction may be smaller than the tolerance of gaps: without a solve the forces would
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))

@@ -133,10 +133,10 @@ namespace Touchstone
 
 
   void
-  Progress::repeat_step(const std::string &reason)
+  Progress::repeat_step(const std::string &reason, const std::string &how)
   {
     log.line("  not converged: " + reason);
-    log.line("  trying again, linearised consistently from the first iteration on");
+    log.line("  trying again, " + how);
     header_due = true;
   }
 

@@ -19,8 +19,9 @@ namespace Touchstone
    *
    * @param contact At the start of the step.
    * @param u       Displacement from which the bodies are moved, length; no ghosts.
+   * @return whether any was moved.
    */
-  void
+  bool
   move_driven_bodies(const BoundaryConditions &conditions,
                      const Contact            &contact,
                      const Solid              &solid,

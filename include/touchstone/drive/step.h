@@ -173,12 +173,13 @@ namespace Touchstone
     virtual void
     rollback() = 0;
 
-    /** @brief Whether the attempt that has failed may succeed with the same step size, as the next
-     * one goes another way. To be asked before rollback(). */
-    virtual bool
-    next_attempt_differs() const
+    /** @brief How the next attempt goes another way, in words, so that the one that has failed may
+     * succeed with the same step size; empty: it would be the same. To be asked before rollback().
+     */
+    virtual std::string
+    next_attempt() const
     {
-      return false;
+      return "";
     }
 
     virtual StepState

@@ -43,11 +43,8 @@ namespace Touchstone
     void
     rollback() override;
 
-    bool
-    next_attempt_differs() const override
-    {
-      return forcing_term.next_attempt_differs() && system->may_change_linearisation();
-    }
+    std::string
+    next_attempt() const override;
     StepState
     state() const override;
     std::optional<Vector>
@@ -153,6 +150,8 @@ namespace Touchstone
     /** Those that changed in the last residual(), and those that exchanged() what they touch in the
      * last of a few in which any did: what goes to and fro need not do so in each. */
     RowPlaces changed_rows, exchanged_rows;
+    /** The attempt at this step began with bodies where their supports move them. */
+    bool guessed = false;
     /** Of all ranks, and since how many calls of residual(). */
     unsigned int exchanges = 0, exchanged_since = 0;
     /** Active rows of the committed state, by pair. */

@@ -71,7 +71,7 @@ namespace Touchstone
     /** @brief The step did not converge for @p reason, and is made again linearised consistently
      * from its first iteration on. */
     void
-    repeat_step(const std::string &reason);
+    repeat_step(const std::string &reason, const std::string &how);
 
     /** @brief The step converged, but is made again with the step size @p step_size, so
      * that it ends where bodies meet. */
