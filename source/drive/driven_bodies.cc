@@ -102,6 +102,33 @@ namespace Touchstone
 
 
 
+    /** Let bodies stay that would be torn from what they are tied to. Collective. */
+    void
+    keep_tied_together(const Contact &contact, std::vector<Tensor<1, dim>> &motions)
+    {
+      std::vector<int> stay(motions.size());
+      do
+        {
+          std::fill(stay.begin(), stay.end(), 0);
+          for (const ContactRow &row : contact.rows())
+            if (row.tied && row.has_partner &&
+                (row.stencil.empty() ? motions[row.body] != Tensor<1, dim>()
+                                     : motions[row.body] != motions[row.master_body]))
+              {
+                stay[row.body] = 1;
+                if (!row.stencil.empty())
+                  stay[row.master_body] = 1;
+              }
+          Utilities::MPI::max(stay, contact.communicator(), stay);
+          for (std::size_t body = 0; body < motions.size(); ++body)
+            if (stay[body] == 1)
+              motions[body] = 0.;
+        }
+      while (std::count(stay.begin(), stay.end(), 1) > 0);
+    }
+
+
+
     /** By how much motions close gaps beyond zero, in sizes of the slave faces. Collective. */
     double
     deepest_overlap(const Contact &contact, const std::vector<Tensor<1, dim>> &motions)
@@ -128,7 +155,8 @@ namespace Touchstone
                      const double              t,
                      Vector                   &u)
   {
-    const auto motions = driven_motions(conditions, solid, t, u);
+    auto motions = driven_motions(conditions, solid, t, u);
+    keep_tied_together(contact, motions);
     if (std::all_of(motions.begin(),
                     motions.end(),
                     [](const Tensor<1, dim> &motion) { return motion.norm_square() == 0.; }) ||
