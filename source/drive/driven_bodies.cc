@@ -4,6 +4,7 @@
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
@@ -94,8 +95,10 @@ namespace Touchstone
       Utilities::MPI::max(largest, solid.communicator, largest);
       constexpr double round_off = 1e-10;
       for (unsigned int body = 0; body < solid.n_bodies(); ++body)
+        // A formula that has no finite value somewhere is an error of whoever prescribes it.
         if (const double *const of_body = &largest[3 * body];
-            of_body[1] <= round_off * of_body[0] || of_body[2] > round_off * of_body[1])
+            of_body[1] <= round_off * of_body[0] || of_body[2] > round_off * of_body[1] ||
+            !numbers::is_finite(motions[body].norm()))
           motions[body] = 0.;
       return motions;
     }

@@ -68,7 +68,7 @@ namespace Touchstone
       return comparison_lines;
     }
 
-    /** @brief Names of the lists of pictures that the run has written. */
+    /** @brief Names of the .pvd or .xdmf files that the run has written. */
     std::vector<std::string>
     written_lists();
 
