@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
 #include <locale>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
@@ -54,22 +54,17 @@ namespace Touchstone
 
 
     /** For each vertex one that its connected part has in common. */
-    std::vector<unsigned int>
+    std::vector<std::size_t>
     roots(const BodyMesh &mesh)
     {
-      std::vector<unsigned int> parent(mesh.vertices.size());
-      std::iota(parent.begin(), parent.end(), 0);
-      const auto root = [&parent](unsigned int i) {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      };
+      boost::disjoint_sets_with_storage<> parts(mesh.vertices.size());
       for (const CellData<3> &cell : mesh.cells)
         for (const unsigned int v : cell.vertices)
-          parent[root(v)] = root(cell.vertices[0]);
-      for (unsigned int v = 0; v < parent.size(); ++v)
-        parent[v] = root(v);
-      return parent;
+          parts.union_set(cell.vertices[0], v);
+      std::vector<std::size_t> result;
+      for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        result.push_back(parts.find_set(v));
+      return result;
     }
 
 
@@ -117,9 +112,10 @@ namespace Touchstone
       CoincidentVertices result;
       if (pairs.empty())
         return result;
-      const std::vector<unsigned int>    root = roots(mesh);
+      const std::vector<std::size_t>     root = roots(mesh);
       std::vector<std::array<double, 3>> places;
-      std::set<unsigned int>             coincide, parts(root.begin(), root.end());
+      std::set<unsigned int>             coincide;
+      const std::set<std::size_t>        parts(root.begin(), root.end());
       for (const auto &[v, w] : pairs)
         {
           const Point<3> &x = mesh.vertices[v];

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -77,18 +78,11 @@ namespace Touchstone
           label[cell->active_cell_index()] = *std::min_element(dofs.begin(), dofs.end());
         }
 
-    // Disjoint sets of vertices, each a tree.
-    std::vector<unsigned int> parent(mesh.n_vertices());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&parent](unsigned int i) {
-      while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    boost::disjoint_sets_with_storage<> sets(mesh.n_vertices());
     for (const auto &cell : mesh.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int v : cell->vertex_indices())
-          parent[root(cell->vertex_index(v))] = root(cell->vertex_index(0));
+          sets.union_set(cell->vertex_index(0), cell->vertex_index(v));
 
     for (int changed = 1; changed == 1;)
       {
@@ -97,12 +91,12 @@ namespace Touchstone
         for (const auto &cell : mesh.active_cell_iterators())
           if (!cell->is_artificial())
             {
-              double &of_set = least[root(cell->vertex_index(0))];
+              double &of_set = least[sets.find_set(cell->vertex_index(0))];
               of_set         = std::min(of_set, label[cell->active_cell_index()]);
             }
         for (const auto &cell : mesh.active_cell_iterators())
           if (!cell->is_artificial())
-            label[cell->active_cell_index()] = least[root(cell->vertex_index(0))];
+            label[cell->active_cell_index()] = least[sets.find_set(cell->vertex_index(0))];
         GridTools::exchange_cell_data_to_ghosts<double, Triangulation<dim>>(
           mesh,
           [&](const Cell &cell) -> std_cxx17::optional<double> {
