@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <utility>
+#include <vector>
 
 /**
  * @file
@@ -165,6 +166,31 @@ namespace Touchstone
   OutputFolder::write_pieces_atomically(const std::string &name, const TextInParts &contents) const
   {
     together([&]() { Touchstone::write_file_atomically(path(name), contents); });
+  }
+
+
+
+  void
+  OutputFolder::remove_earlier(
+    const std::function<bool(const std::filesystem::directory_entry &)> &are_left) const
+  {
+    // Collective, so that no rank writes before rank 0 has looked.
+    together([&] {
+      if (rank != 0)
+        return;
+      namespace fs = std::filesystem;
+      std::error_code       error;
+      std::vector<fs::path> left;
+      for (const fs::directory_entry &entry : fs::directory_iterator(directory, error))
+        if (are_left(entry))
+          left.push_back(entry.path());
+      for (const fs::path &path : left)
+        if (!error && !fs::remove(path, error) && error)
+          throw OutputError(path.string(),
+                            error.message(),
+                            "It is of an earlier run and would be taken for a result of this one: "
+                            "remove it, or choose another folder with --output DIR.");
+    });
   }
 
 

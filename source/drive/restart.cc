@@ -288,8 +288,7 @@ namespace Touchstone
 
     restore_results(archive);
     last_checkpoint = start.step;
-    for (const auto &[name, series] : picture_series())
-      series.get().remove_earlier_run(start.step);
+    remove_earlier_run(start.step);
 
     std::vector<std::string> lines = origin.skipped;
     lines.push_back("goes on from " + checkpoint.name + ": step " + std::to_string(start.step - 1) +

@@ -180,8 +180,7 @@ namespace Touchstone
             *record.angular_momentum += momentum.angular;
           }
       }
-    for (const auto &[name, series] : picture_series())
-      series.get().remove_earlier_run(0);
+    remove_earlier_run(0);
     statistics.add_start(record);
     probes.record(folder, volume_output, u, 0.);
     if (scene.output.vtu_interval > 0)

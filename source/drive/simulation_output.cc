@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,25 @@
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    const std::string summary_file = "summary.json";
+  }
+
+
+
+  void
+  Simulation::remove_earlier_run(const unsigned int first_step)
+  {
+    folder.remove_earlier([](const std::filesystem::directory_entry &entry) {
+      return entry.path().filename() == summary_file;
+    });
+    for (const auto &[name, series] : picture_series())
+      series.get().remove_earlier_run(first_step);
+  }
+
+
 
   void
   Simulation::write_vtu(const unsigned int step, const double time)
@@ -68,7 +88,7 @@ namespace Touchstone
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");
     // Atomic: programs that wait for the file never read half of it.
-    folder.write_file_atomically("summary.json", summary.to_json().print());
+    folder.write_file_atomically(summary_file, summary.to_json().print());
   }
 
 

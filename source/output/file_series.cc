@@ -76,7 +76,7 @@ namespace Touchstone
     // Nothing else in the folder is touched: it may hold what the user has put there.
     const std::regex of_step(name + R"(_(\d{4,9})(\.\d+)?\.(vtu|pvtu|h5)(\.part)?)"),
       list_of_steps(name + R"(\.(pvd|xdmf)(\.part)?)");
-    const auto is_left = [&](const fs::directory_entry &entry) {
+    folder.remove_earlier([&](const fs::directory_entry &entry) {
       const std::string file = entry.path().filename().string();
       std::smatch       parts;
       std::error_code   gone;
@@ -84,22 +84,6 @@ namespace Touchstone
              (std::regex_match(file, parts, of_step)
                 ? std::stoul(parts[1]) >= first_step
                 : first_step == 0 && std::regex_match(file, list_of_steps));
-    };
-    // Collective, so that no rank writes before rank 0 has looked.
-    folder.together([&] {
-      if (folder.rank != 0)
-        return;
-      std::error_code       error;
-      std::vector<fs::path> left;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder.directory, error))
-        if (is_left(entry))
-          left.push_back(entry.path());
-      for (const fs::path &path : left)
-        if (!error && !fs::remove(path, error) && error)
-          throw OutputError(path.string(),
-                            error.message(),
-                            "It is of an earlier run and would be taken for a result of this one: "
-                            "remove it, or choose another folder with --output DIR.");
     });
   }
 } // namespace Touchstone

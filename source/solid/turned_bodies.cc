@@ -32,12 +32,13 @@ namespace Touchstone
     integrate(const Solid &solid, const Vector &u)
     {
       const FEValuesExtractors::Vector displacement(0);
-      FEValues<dim>                    values(solid.mapping,
+      // Enough for a mean of which more than 1e-3 counts.
+      FEValues<dim>               values(solid.mapping,
                            solid.fe,
-                           QGauss<dim>(solid.fe.degree + 1),
+                           QGauss<dim>(solid.fe.degree),
                            update_gradients | update_JxW_values);
-      std::vector<Tensor<2, dim>>      gradients(values.n_quadrature_points);
-      std::vector<Strains>             result(solid.bodies.size());
+      std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
+      std::vector<Strains>        result(solid.bodies.size());
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && !solid.bodies[cell->material_id()].material.finite_strain())
           {

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -74,6 +75,12 @@ namespace Touchstone
      * @throws OutputError */
     void
     write_pieces_atomically(const std::string &name, const TextInParts &contents) const;
+
+    /** @brief Remove the files of the folder that @p are_left of an earlier run and would be taken
+     * for results of this one. Collective. @throws OutputError */
+    void
+    remove_earlier(
+      const std::function<bool(const std::filesystem::directory_entry &)> &are_left) const;
 
     /** @brief Run @p action on each rank, and throw on all what OutputError one
      * of them threw. Collective. @throws OutputError */

@@ -189,6 +189,11 @@ namespace Touchstone
     /** @brief All series of files, by their names in checkpoints. */
     std::vector<std::pair<std::string, std::reference_wrapper<FileSeries>>>
     picture_series();
+
+    /** Remove the summary of an earlier run and its result files of steps from @p first_step on,
+     * which readers would take for those of this one. Collective. */
+    void
+    remove_earlier_run(unsigned int first_step);
     void
     load_stepping();
     /** Whether all steps of the input end where they do without cuts. Those that impacts shorten
