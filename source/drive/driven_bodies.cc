@@ -105,6 +105,15 @@ namespace Touchstone
 
 
 
+    /** The motion of what a row faces. */
+    Tensor<1, dim>
+    motion_faced(const ContactRow &row, const std::vector<Tensor<1, dim>> &motions)
+    {
+      return row.on_obstacle() ? Tensor<1, dim>() : motions[row.master_body];
+    }
+
+
+
     /** Let bodies stay that would be torn from what they are tied to. Collective. */
     void
     keep_tied_together(const Contact &contact, std::vector<Tensor<1, dim>> &motions)
@@ -114,12 +123,10 @@ namespace Touchstone
         {
           std::fill(stay.begin(), stay.end(), 0);
           for (const ContactRow &row : contact.rows())
-            if (row.tied && row.has_partner &&
-                (row.stencil.empty() ? motions[row.body] != Tensor<1, dim>()
-                                     : motions[row.body] != motions[row.master_body]))
+            if (row.tied && row.has_partner && motions[row.body] != motion_faced(row, motions))
               {
                 stay[row.body] = 1;
-                if (!row.stencil.empty())
+                if (!row.on_obstacle())
                   stay[row.master_body] = 1;
               }
           Utilities::MPI::max(stay, contact.communicator(), stay);
@@ -140,9 +147,7 @@ namespace Touchstone
       for (const ContactRow &row : contact.rows())
         if (row.has_partner)
           {
-            Tensor<1, dim> closing = -motions[row.body];
-            if (!row.stencil.empty())
-              closing += motions[row.master_body];
+            const Tensor<1, dim> closing = motion_faced(row, motions) - motions[row.body];
             result = std::max(result, (closing * row.normal - std::max(row.gap, 0.)) / row.size);
           }
       return Utilities::MPI::max(result, contact.communicator());

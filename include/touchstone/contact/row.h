@@ -10,6 +10,7 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
 
 #include <array>
 #include <cstddef>
@@ -71,8 +72,17 @@ namespace Touchstone
     /** Scale of contact forces per gap, force per length: Young's modulus of the
      * softer body times area over size. The complementarity constant c. */
     double stiffness = 1.;
-    /** Body of the slave node, and of the stencil. */
+    /** Body of the slave node, and of the master; invalid_unsigned_int if that is an obstacle. */
     unsigned int body = 0, master_body = 0;
+
+    /** @brief The master is rigid: it has no nodes, and other nodes in the stencil are of the slave
+     * (points between nodes). */
+    bool
+    on_obstacle() const
+    {
+      return master_body == dealii::numbers::invalid_unsigned_int;
+    }
+
     /** Constrained in all components, in tension too. */
     bool tied = false;
     /** What touches is not the slave node but a point between slave nodes: of an edge that crosses

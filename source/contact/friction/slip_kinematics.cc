@@ -59,13 +59,6 @@ namespace Touchstone
 
   namespace
   {
-    /** The master is rigid: it has no nodes, and other nodes in the stencil are of the slave. */
-    bool
-    on_obstacle(const ContactRow &row)
-    {
-      return row.master_body == numbers::invalid_unsigned_int;
-    }
-
     double
     sum_of_weights(const Stencil &stencil)
     {
@@ -89,7 +82,7 @@ namespace Touchstone
     // leave: of a row between nodes these are of the slave face.
     double of_obstacle = 1.;
     if (!history.anchor.empty())
-      of_obstacle = on_obstacle(row) ? 1. - sum_of_weights(history.anchor) : 0.;
+      of_obstacle = row.on_obstacle() ? 1. - sum_of_weights(history.anchor) : 0.;
     if (row.friction->small)
       return row.gap_vector - history.anchor_offset;
     // The weights of the anchor and of the obstacle add up to one.
@@ -117,7 +110,7 @@ namespace Touchstone
       Tensor<1, dim> result = positions.displacement(row.slave);
       for (const StencilEntry &entry : row.stencil)
         result -= entry.weight * positions.displacement(entry.node);
-      return on_obstacle(row) ? result - row.share * row.moved : result;
+      return row.on_obstacle() ? result - row.share * row.moved : result;
     }
 
 
@@ -217,7 +210,7 @@ namespace Touchstone
     else
       {
         history.anchor = row.stencil;
-        if (on_obstacle(row))
+        if (row.on_obstacle())
           history.anchor_offset = row.motion.back(contact_point(row));
       }
     history.anchor_gap                = row.gap;
