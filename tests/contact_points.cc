@@ -3,6 +3,7 @@
 // their derivatives against central differences in directions in which every node moves on its own.
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 
 #include "contact_support.h"
 
@@ -122,6 +123,48 @@ namespace
     return Utilities::MPI::max(x, MPI_COMM_WORLD);
   }
 
+  /** A point on the edge between two faces is the same whichever of them it is given by. */
+  void
+  check_edge(const std::string &text)
+  {
+    PairOfScene              scene(text, {});
+    const Touchstone::Vector u =
+      scene.displacement([](const Point<dim> &x, unsigned int) { return 0.003 * scattered(x, 7); });
+    rows_at(scene, u);
+    const MaterialPoint        first = point_on_face(scene, {{1., -0.11}}).at(0);
+    std::vector<MaterialPoint> points;
+    for (const Face &face : scene.slave->owned_faces())
+      if (const auto xi = coordinates_on(face, first))
+        points.emplace_back(face, scene.slave->trace(face), *xi);
+    points                                      = gather_all(points, MPI_COMM_WORLD);
+    double                           difference = 0.;
+    std::vector<std::vector<double>> figures;
+    for (MaterialPoint &point : points)
+      {
+        difference = std::max(difference, distance(first, point));
+        for (unsigned int a = 0; a < point.n; ++a)
+          if (point.nodes[a] == first.nodes[first.slave])
+            point.slave = a;
+        scene.pair.set_points({point});
+        std::vector<double> of_point;
+        for (const ContactRow &row : rows_at(scene, u))
+          if (row.between_nodes && row.has_partner)
+            {
+              of_point.push_back(row.gap);
+              for (const Stencil &tangent : *row.tangents)
+                for (const StencilEntry &entry : tangent)
+                  of_point.push_back(entry.weight);
+            }
+        figures.push_back(of_point);
+      }
+    for (std::size_t k = 0; k < figures[0].size(); ++k)
+      difference = std::max(difference, std::abs(figures[0][k] - figures.at(1).at(k)));
+    difference = largest(difference);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "on an edge: " << points.size() << " faces, " << small(difference, 1e-14)
+                << '\n';
+  }
+
   void
   check(const std::string &name, const std::string &text, const std::vector<std::string> &overrides)
   {
@@ -184,5 +227,6 @@ main(int argc, char **argv)
   check("tube, degree 2", tube, {"Discretisation/Degree=2"});
   check("ball", ball, {});
   check("ball, degree 2", ball, {"Discretisation/Degree=2"});
+  check_edge(ball);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlap_order.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
@@ -115,10 +116,7 @@ namespace Touchstone
       result.erase(std::remove_if(result.begin(),
                                   result.end(),
                                   [&](const Overlap &overlap) {
-                                    // Nearer to each other than to the next sample.
-                                    return overlap.point.face == point.face &&
-                                           std::hypot(overlap.deepest[0] - point.xi[0],
-                                                      overlap.deepest[1] - point.xi[1]) < 0.25;
+                                    return goes_on_from(point, overlap.deepest);
                                   }),
                    result.end());
     return result;

@@ -125,7 +125,9 @@ namespace Touchstone
                    point.x + in.to_straight_edges(foot),
                    true,
                    worst.adjusted,
-                   &of.face == &slave ? point.xi : foot,
+                   MaterialPoint(slave,
+                                 pair.slave().trace(slave),
+                                 &of.face == &slave ? point.xi : foot),
                    {}};
       }
   }

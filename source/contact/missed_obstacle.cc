@@ -214,7 +214,7 @@ namespace Touchstone
                              position(at),
                              at[2] > 0.,
                              taken_out > Tolerances::touches_at_start * size,
-                             {{at[0], at[1]}},
+                             MaterialPoint(face, pair.slave().trace(face), {{at[0], at[1]}}),
                              {}});
             if (gap({{at[0], at[1], 0.}}) < 0. && !found.back().adjusted)
               {

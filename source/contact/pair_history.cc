@@ -6,6 +6,7 @@
 #include <touchstone/contact/row_archive.h>
 
 #include <algorithm>
+#include <tuple>
 
 // The committed rows of a pair, and rows and pairing in checkpoints.
 namespace Touchstone
@@ -150,7 +151,7 @@ namespace Touchstone
     std::sort(points_before.begin(),
               points_before.end(),
               [](const MaterialPoint &one, const MaterialPoint &other) {
-                return one.face < other.face;
+                return std::tie(one.face, one.xi) < std::tie(other.face, other.xi);
               });
     point_rows->set(points_before);
   }

@@ -14,9 +14,9 @@
 #include <cmath>
 
 // Which points inside slave faces have rows (doc/theory.md 4.2). It follows from states of balance
-// alone, each with fewer points than the next, the first of a step without any: so it depends
-// neither on the iterates of Newton's method nor on numbers of nodes or ranks, and without
-// plasticity not on the steps before either.
+// alone, each with fewer points than the next, the first of a step without any, or with those that
+// have pressed into plastic bodies: so it depends neither on the iterates of Newton's method nor on
+// numbers of nodes or ranks, and without plasticity not on the steps before either.
 namespace Touchstone
 {
   using namespace dealii;
@@ -61,6 +61,15 @@ namespace Touchstone
 
 
 
+    bool
+    carried(const Contact &contact, const ContactRow &row)
+    {
+      const RowState &state = contact.enforcement().states().of_committed(row);
+      return state.active() && !state.dropped() && state.lambda > 0.;
+    }
+
+
+
     /** The points of the committed state that carried a force. Collective. */
     std::vector<MaterialPoint>
     carrying(const Contact &contact, const ContactPair &pair)
@@ -70,14 +79,35 @@ namespace Touchstone
       for (const ContactRow &row : pair.rows())
         if (const MaterialPoint *const point =
               row.between_nodes ? point_of(points, row.slave) : nullptr)
-          {
-            const RowState &state        = contact.enforcement().states().of_committed(row);
-            carry[point - points.data()] = state.active() && !state.dropped() && state.lambda > 0.;
-          }
+          carry[point - points.data()] = carried(contact, row);
       Utilities::MPI::max(carry, contact.communicator(), carry);
       std::vector<MaterialPoint> result;
       for (std::size_t k = 0; k < points.size(); ++k)
         if (carry[k] == 1)
+          result.push_back(points[k]);
+      return result;
+    }
+
+
+
+    /** Those of them with which the next step begins. What a point has pressed into a plastic body
+     * no other one would carry: it stays until it opens, or its nodes carry the force. Collective.
+     */
+    std::vector<MaterialPoint>
+    staying(const Contact &contact, const ContactPair &pair)
+    {
+      if (!contact.solid_model().has_history())
+        return {};
+      const std::vector<MaterialPoint> points = carrying(contact, pair);
+      std::vector<int>                 at_node(points.size(), 0);
+      for (const ContactRow &row : pair.rows())
+        if (!row.between_nodes && carried(contact, row))
+          for (std::size_t k = 0; k < points.size(); ++k)
+            at_node[k] = at_node[k] || refers_to(points[k], row.slave);
+      Utilities::MPI::max(at_node, contact.communicator(), at_node);
+      std::vector<MaterialPoint> result;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (at_node[k] == 0)
           result.push_back(points[k]);
       return result;
     }
@@ -93,6 +123,7 @@ namespace Touchstone
         , flags(slave_flags(contact, pair))
         , points(pair.points())
         , of_last_step(carrying(contact, pair))
+        , stayed(staying(contact, pair))
       {
       }
 
@@ -114,6 +145,12 @@ namespace Touchstone
       std::vector<MaterialPoint> points;
       /** Points that carried a force when the last step ended. */
       const std::vector<MaterialPoint> of_last_step;
+      /** Those of them that the step began with. */
+      const std::vector<MaterialPoint> stayed;
+
+      /** No points but these. */
+      bool
+      none_new() const;
 
       /** The one of them that @p point goes on from, or null. */
       const MaterialPoint *
@@ -131,13 +168,28 @@ namespace Touchstone
 
 
 
+    bool
+    PointsOfPair::none_new() const
+    {
+      return points.size() == stayed.size() &&
+             std::all_of(points.begin(), points.end(), [&](const MaterialPoint &point) {
+               return std::any_of(stayed.begin(), stayed.end(), [&](const MaterialPoint &other) {
+                 return coincide(point, other);
+               });
+             });
+    }
+
+
+
     const MaterialPoint *
     PointsOfPair::continued(const MaterialPoint &point) const
     {
+      const MaterialPoint *result = nullptr;
       for (const MaterialPoint &last : of_last_step)
-        if (goes_on_from(last, point))
-          return &last;
-      return nullptr;
+        if (goes_on_from(last, point) &&
+            (!result || distance(last, point) < distance(*result, point)))
+          result = &last;
+      return result;
     }
 
 
@@ -183,7 +235,7 @@ namespace Touchstone
               // weights the first on the face, which is the same in any partition.
               const unsigned int n =
                 std::count_if(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
-                  return other.face != point.face && refers_to(other, point.nodes[a]);
+                  return !coincide(other, point) && refers_to(other, point.nodes[a]);
                 });
               if (found && (all[a] < most ||
                             (all[a] == most &&
@@ -221,55 +273,42 @@ namespace Touchstone
       const MissedContact missed(contact, pair, forces);
       // Facets of bodies that slave nodes keep apart overlap a little in many places. Points are
       // for what would be no result without them.
-      if (points.empty())
+      if (none_new())
         if (const MissedContact::Place place = missed.deepest();
             place.depth == 0. ||
             !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
           return false;
-      const std::vector<MaterialPoint> found  = on_edges(missed.points());
-      std::vector<MaterialPoint>       wanted = deepest_of_neighbours(found);
-      // Which of two faces is deeper changes as plastic bodies slide, and the force would fall when
-      // one of their points is given up.
-      if (contact.solid_model().has_history())
-        for (const MaterialPoint &point : found)
-          if (continued(point) &&
-              std::none_of(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
-                return other.face == point.face;
-              }))
-            wanted.push_back(point);
-      std::vector<MaterialPoint> result  = points;
-      bool                       changed = false;
+      const std::vector<MaterialPoint> wanted  = deepest_of_neighbours(on_edges(missed.points()));
+      std::vector<MaterialPoint>       result  = points;
+      bool                             changed = false;
       for (MaterialPoint point : wanted)
         {
-          // What it has pressed into a plastic body another point would not carry.
-          if (const MaterialPoint *const last = continued(point);
-              last && contact.solid_model().has_history())
-            {
-              const double depth = point.depth;
-              point              = *last;
-              point.depth        = depth;
-            }
-          std::vector<MaterialPoint> others = result;
-          const auto of_face = [&](const MaterialPoint &other) { return other.face == point.face; };
+          std::vector<MaterialPoint> others  = result;
+          const auto                 of_face = [&](const MaterialPoint &other) {
+            return in_same_face(point, other);
+          };
           others.erase(std::remove_if(others.begin(), others.end(), of_face), others.end());
           const auto before = std::find_if(result.begin(), result.end(), of_face);
           if (!choose_slave(point, before == result.end() ? nullptr : &*before, others, wanted))
             {
               if (std::any_of(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
-                    return other.face != point.face && equally_deep(point, other);
+                    return !coincide(other, point) && equally_deep(point, other);
                   }))
                 return false;
               continue;
             }
           if (before == result.end())
             result.push_back(point);
-          else if (std::hypot(point.xi[0] - before->xi[0], point.xi[1] - before->xi[1]) <
-                     same_place &&
-                   point.slave == before->slave)
+          else if (coincide(point, *before) &&
+                   point.nodes[point.slave] == before->nodes[before->slave])
             // Its row is there and says that nothing touches.
             continue;
           else
-            *before = point;
+            {
+              // A point on an edge takes the place of those in its faces.
+              result = others;
+              result.push_back(point);
+            }
           changed = true;
         }
       points = result;
@@ -299,8 +338,8 @@ namespace Touchstone
   withdraw_points(Contact &contact)
   {
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (contact.pair(p).takes_points() && !contact.pair(p).points().empty())
-        contact.set_points(p, {});
+      if (const ContactPair &pair = contact.pair(p); pair.takes_points() && !pair.points().empty())
+        contact.set_points(p, staying(contact, pair));
   }
 
 

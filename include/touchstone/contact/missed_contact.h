@@ -93,7 +93,7 @@ namespace Touchstone
       /** An overlap at the start has been taken out of it. */
       bool adjusted = false;
       /** Where it is deepest on the slave face. */
-      MeasuredFace::Xi deepest{};
+      MaterialPoint deepest{};
       /** In the middle of what is deepest, on the slave face. */
       MaterialPoint point{};
     };

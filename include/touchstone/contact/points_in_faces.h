@@ -10,7 +10,8 @@ namespace Touchstone
 {
   class Contact;
 
-  /** @brief Let no material point have a row: a step begins. */
+  /** @brief Let no material point have a row, or with plastic bodies only those that carried a
+   * force when the last step ended: a step begins. Collective. */
   void
   withdraw_points(Contact &contact);
 

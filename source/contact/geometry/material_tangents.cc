@@ -13,7 +13,7 @@ namespace Touchstone
   using namespace dealii;
 
   std::array<Stencil, 2>
-  Surface::material_tangents_at(const PointOnFaces &list) const
+  Surface::material_tangents(const PointOnFaces &list) const
   {
     // Tangents of the faces at the point in the reference state.
     std::vector<std::array<Tensor<1, dim>, 2>> tangents;
@@ -103,16 +103,8 @@ namespace Touchstone
         PointOnFaces at_node;
         for (const auto &[face, corner] : around.at(node.node))
           at_node.emplace_back(face, node_coordinates(*face, corner));
-        result.push_back(material_tangents_at(at_node));
+        result.push_back(material_tangents(at_node));
       }
     return result;
-  }
-
-
-
-  std::array<Stencil, 2>
-  Surface::material_tangents(const Face &face, const std::array<double, 2> &xi) const
-  {
-    return material_tangents_at({{&face, xi}});
   }
 } // namespace Touchstone

@@ -3,10 +3,12 @@
 #include <touchstone/contact/pairing/point_rows.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
 #include <touchstone/contact/pairing/row_derivative.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 // Rows of material points inside slave faces (doc/theory.md 4.2). A point
 // x = sum_a W_a x_a has the row that a slave node would have there, pointwise; all of it is divided
@@ -32,8 +34,7 @@ namespace Touchstone
     for (const OwnPoint &point : own)
       if (const MaterialPoint &p = *point.point;
           std::none_of(points.begin(), points.end(), [&](const MaterialPoint &other) {
-            return other.face == p.face && other.xi == p.xi &&
-                   other.nodes[other.slave] == p.nodes[p.slave];
+            return coincide(other, p) && other.nodes[other.slave] == p.nodes[p.slave];
           }))
         released.push_back(point.row);
     own.clear();
@@ -46,19 +47,57 @@ namespace Touchstone
                      input.parameters->edge_tolerance,
                      input.parameters->master_normal,
                      input.solid->communicator);
-    std::unordered_map<std::uint64_t, const Face *> faces;
-    for (const std::vector<Face> *const known :
-         {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
-      for (const Face &face : *known)
-        faces[face.key] = &face;
     for (const MaterialPoint &point : all)
       if (const auto k = numbers.find(point.nodes[point.slave]); k != numbers.end())
         {
-          const Face &face     = *faces.at(point.face);
-          const auto  tangents = std::make_shared<const std::array<Stencil, 2>>(
-            input.slave->material_tangents(face, point.xi));
-          own.push_back({&point, &face, numbers.size() + k->second, tangents});
+          const auto places = places_of(point);
+          const auto tangents =
+            std::make_shared<const std::array<Stencil, 2>>(input.slave->material_tangents(places));
+          own.push_back({&point, places, numbers.size() + k->second, tangents});
         }
+  }
+
+
+
+  // A point on an edge belongs to none of the faces more than to the others: which of them has
+  // found it must not matter. The rank that has the row knows all faces around its node.
+  Surface::PointOnFaces
+  PointRows::places_of(const MaterialPoint &point) const
+  {
+    std::map<std::uint64_t, std::pair<const Face *, std::array<double, 2>>> places;
+    const Face                                                             *found = nullptr;
+    for (const std::vector<Face> *const known :
+         {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
+      for (const Face &face : *known)
+        {
+          if (const auto xi = coordinates_on(face, point))
+            places[face.key] = {&face, *xi};
+          if (face.key == point.face)
+            found = &face;
+        }
+    // Nodes that others follow on the edge of a larger face are none of the face itself.
+    if (places.empty())
+      return {{found, point.xi}};
+    Surface::PointOnFaces result;
+    for (const auto &[key, place] : places)
+      result.push_back(place);
+    return result;
+  }
+
+
+
+  std::pair<Point<dim>, Tensor<1, dim>>
+  PointRows::position(const OwnPoint &point) const
+  {
+    Point<dim>     x;
+    Tensor<1, dim> normal;
+    for (const auto &[face, xi] : point.places)
+      {
+        const FacePoint there = evaluate(*face, input.slave->exact_surface(*face), xi);
+        x += there.x / double(point.places.size());
+        normal += there.normal();
+      }
+    return {x, normal / normal.norm()};
   }
 
 
@@ -140,7 +179,7 @@ namespace Touchstone
     std::vector<Point<dim>> positions;
     for (OwnPoint &point : own)
       {
-        point.x = evaluate(*point.face, input.slave->exact_surface(*point.face), point.point->xi).x;
+        point.x = position(point).first;
         positions.push_back(point.x);
       }
     if (search)
@@ -153,11 +192,9 @@ namespace Touchstone
         row.has_partner = false;
         if (search)
           {
-            const FacePoint slave =
-              evaluate(*point.face, input.slave->exact_surface(*point.face), point.point->xi);
             SlavePoint where;
             where.x = where.start = point.x;
-            where.normal          = slave.normal();
+            where.normal          = position(point).second;
             where.in_contact      = row.was_active;
             where.stays_at_end    = row.was_active;
             point.partner         = search->find(where);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 // Which of the points of overlaps are to have rows (doc/theory.md 4.2).
 namespace Touchstone
@@ -24,16 +23,6 @@ namespace Touchstone
 
 
 
-    bool
-    share_node(const MaterialPoint &one, const MaterialPoint &other)
-    {
-      return std::any_of(one.nodes.begin(), one.nodes.begin() + one.n, [&](const Index node) {
-        return has_node(other, node);
-      });
-    }
-
-
-
     double
     weight(const MaterialPoint &point, const Index node)
     {
@@ -46,28 +35,37 @@ namespace Touchstone
 
 
 
-    /** The part of a point that is on the nodes of another one's face: 1 on an edge between both.
+    bool
+    share_node(const MaterialPoint &one, const MaterialPoint &other)
+    {
+      return std::any_of(one.nodes.begin(), one.nodes.begin() + one.n, [&](const Index node) {
+        return refers_to(one, node) && refers_to(other, node);
+      });
+    }
+
+
+
+    /** The part of a point that is on the nodes of another one: 1 on an edge between their faces.
      */
     double
     part_on(const MaterialPoint &other, const MaterialPoint &point)
     {
       double part = 0.;
       for (unsigned int a = 0; a < point.n; ++a)
-        if (has_node(other, point.nodes[a]))
+        if (refers_to(other, point.nodes[a]))
           part += point.weights[a];
       return part;
     }
 
 
 
-    /** Whether two points are one, perhaps of two faces on the edge between them. */
+    /** Whether a point lies on the face of another one or on an edge of it. */
     bool
-    coincide(const MaterialPoint &one, const MaterialPoint &other)
+    lies_on(const MaterialPoint &other, const MaterialPoint &point)
     {
-      for (const auto &[a, b] : {std::make_pair(&one, &other), std::make_pair(&other, &one)})
-        for (unsigned int k = 0; k < a->n; ++k)
-          if (std::abs(a->weights[k] - weight(*b, a->nodes[k])) > same_place)
-            return false;
+      for (unsigned int a = 0; a < point.n; ++a)
+        if (refers_to(point, point.nodes[a]) && !has_node(other, point.nodes[a]))
+          return false;
       return true;
     }
 
@@ -111,8 +109,8 @@ namespace Touchstone
       if (std::hypot(own[0] - point.xi[0], own[1] - point.xi[1]) > same_place)
         return false;
       point.xi      = coordinates([&](const unsigned int a) {
-        return has_node(image, point.nodes[a]) ? point.weights[a] + weight(image, point.nodes[a])
-                                                    : 0.;
+        return refers_to(image, point.nodes[a]) ? point.weights[a] + weight(image, point.nodes[a])
+                                                     : 0.;
       });
       point.weights = FaceShapes(degree, point.xi).value;
       point.depth   = std::max(point.depth, image.depth);
@@ -130,6 +128,28 @@ namespace Touchstone
 
 
 
+  std::optional<std::array<double, 2>>
+  coordinates_on(const Face &face, const MaterialPoint &point)
+  {
+    // Shape functions reproduce the coordinates.
+    std::array<double, 2> xi{};
+    for (unsigned int a = 0; a < point.n; ++a)
+      if (refers_to(point, point.nodes[a]))
+        {
+          const unsigned int m = face.number_of(point.nodes[a]);
+          if (m == face.n_nodes())
+            return {};
+          const auto at_node = node_coordinates(face, m);
+          for (unsigned int d = 0; d < 2; ++d)
+            xi[d] += point.weights[a] * at_node[d];
+        }
+    for (double &value : xi)
+      value = std::clamp(value, -1., 1.);
+    return xi;
+  }
+
+
+
   const MaterialPoint *
   point_of(const std::vector<MaterialPoint> &points, const Index node)
   {
@@ -141,12 +161,42 @@ namespace Touchstone
 
 
 
+  double
+  distance(const MaterialPoint &one, const MaterialPoint &other)
+  {
+    double sum = 0.;
+    for (unsigned int a = 0; a < one.n; ++a)
+      sum += std::abs(one.weights[a] - weight(other, one.nodes[a]));
+    for (unsigned int b = 0; b < other.n; ++b)
+      if (!has_node(one, other.nodes[b]))
+        sum += std::abs(other.weights[b]);
+    return sum;
+  }
+
+
+
+  bool
+  coincide(const MaterialPoint &one, const MaterialPoint &other)
+  {
+    return distance(one, other) < same_place;
+  }
+
+
+
+  bool
+  in_same_face(const MaterialPoint &one, const MaterialPoint &other)
+  {
+    return lies_on(one, other) || lies_on(other, one);
+  }
+
+
+
   bool
   goes_on_from(const MaterialPoint &last, const MaterialPoint &point)
   {
     // Nearer to each other than to the next sample of an overlap.
-    return last.face == point.face &&
-           std::hypot(last.xi[0] - point.xi[0], last.xi[1] - point.xi[1]) < 0.25;
+    constexpr double near = 0.25;
+    return distance(last, point) < near;
   }
 
 
@@ -208,7 +258,7 @@ namespace Touchstone
         const auto next =
           std::find_if(points.begin(), points.end(), [&](const MaterialPoint &point) {
             return std::none_of(points.begin(), points.end(), [&](const MaterialPoint &other) {
-              return other.face != point.face && refers_to(point, other.nodes[other.slave]);
+              return &other != &point && refers_to(point, other.nodes[other.slave]);
             });
           });
         if (next == points.end())

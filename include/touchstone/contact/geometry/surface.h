@@ -140,9 +140,12 @@ namespace Touchstone
     std::vector<std::array<Stencil, 2>>
     material_tangents() const;
 
-    /** @brief The same at a point inside a face. */
+    /** @brief Faces, each with the coordinates of one point that they share. */
+    using PointOnFaces = std::vector<std::pair<const Face *, std::array<double, 2>>>;
+
+    /** @brief The same at any point. */
     std::array<Stencil, 2>
-    material_tangents(const Face &face, const std::array<double, 2> &xi) const;
+    material_tangents(const PointOnFaces &list) const;
 
     /** @brief Current position of an owned node. */
     dealii::Point<dim>
@@ -244,10 +247,6 @@ namespace Touchstone
      * two halves. */
     using SplitEdge = std::pair<Edge, std::array<Edge, 2>>;
 
-    /** Faces, each with the coordinates of one point that they share. */
-    using PointOnFaces = std::vector<std::pair<const Face *, std::array<double, 2>>>;
-    std::array<Stencil, 2>
-    material_tangents_at(const PointOnFaces &list) const;
     /** @throws ExcInternalError if no face of this rank has the node. */
     const NodeOfFaces &
     node_of_faces(Index node) const;

@@ -12,10 +12,11 @@
 namespace Touchstone
 {
   /** @brief A point of a slave face that moves with the body and has a row between nodes
-   * (doc/theory.md 4.2). Plain data: it is sent between ranks as it is. */
+   * (doc/theory.md 4.2). Its nodes and weights say which point it is: one on an edge belongs to all
+   * faces that have the edge. Plain data: it is sent between ranks as it is. */
   struct MaterialPoint
   {
-    /** Key of the face, and coordinates on it. */
+    /** Key of the face on which it was found, and coordinates there. */
     std::uint64_t         face = 0;
     std::array<double, 2> xi{};
     /** The nodes that it moves with, none of which hangs, and their weights. */

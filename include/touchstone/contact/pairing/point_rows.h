@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -66,7 +67,8 @@ namespace Touchstone
     struct OwnPoint
     {
       const MaterialPoint *point;
-      const Face          *face;
+      /** The faces that it is on, several if it lies on an edge, and where. */
+      Surface::PointOnFaces places;
       /** Of the row among those of the pair. */
       std::size_t row;
       /** See ContactRow::tangents. */
@@ -80,6 +82,12 @@ namespace Touchstone
     /** Rows of earlier points, see release(). */
     std::vector<std::size_t> released;
 
+    /** All faces that a point is on, in the order of their keys. */
+    Surface::PointOnFaces
+    places_of(const MaterialPoint &point) const;
+    /** Where a point is, and the normal there: the means over its faces. */
+    std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
+    position(const OwnPoint &point) const;
     /** Write the row of a point from that of a node at its place. */
     static void
     set_row(const OwnPoint &point, const ContactRow &there, ContactRow &row);
