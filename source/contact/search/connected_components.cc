@@ -2,9 +2,8 @@
 
 #include <touchstone/contact/search/connected_components.h>
 
-#include <boost/pending/disjoint_sets.hpp>
-
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <functional>
 #include <utility>
 
