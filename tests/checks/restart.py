@@ -196,6 +196,8 @@ check(re.search("no complete checkpoint.*is skipped.*Remedy", said("damaged"), r
 MANY = {STEPS: 24, "Checkpoints/Steps between": 1, "Output/VTU interval": 0}
 check(start(fresh("whole"), scene, MANY), "whole")
 killed = folder / fresh("killed")
+killed.mkdir()
+(killed / "summary.json").write_text('{"converged": true}', encoding="utf-8")  # of an earlier run
 in_the_middle = 0
 for attempt in range(6):
     before = checkpoints("killed")[:1]
@@ -218,6 +220,7 @@ for attempt in range(6):
                 continue
             process.kill()
             break
+    check(process.returncode == 0 or not (killed / "summary.json").exists(), "killed: the summary of an earlier run is left")
     in_the_middle += any(killed.glob("checkpoint_*.part"))
 print(f"killed 6 times, {in_the_middle} times in the middle of a checkpoint", flush=True)
 check(in_the_middle > 0, "never killed in the middle of a checkpoint")
