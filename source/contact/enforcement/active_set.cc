@@ -286,7 +286,8 @@ namespace Touchstone
       only = first_violated(rows, violation, communicator);
 
     ActiveSetUpdate result;
-    result.judged = !solve_first;
+    double          largest = 0.;
+    result.judged           = !solve_first;
     for (const ContactRow &row : rows)
       {
         RowState &state = row_states[row];
@@ -316,6 +317,9 @@ namespace Touchstone
         if (state.active())
           {
             ++result.active;
+            largest =
+              std::max(largest,
+                       std::max(state.lambda, state.force.norm()) / (row.stiffness * row.size));
             result.signature += signature(row, state.status);
           }
       }
@@ -324,11 +328,13 @@ namespace Touchstone
                   exchanges = result.exchanged.size();
     Reduction all;
     all.max(result.gap);
+    all.max(largest);
     all.sum(active);
     all.sum(changes);
     all.sum(exchanges);
     all.sum(result.signature);
     all.over(communicator);
+    result.gap *= weight_of_gaps(largest);
     result.active    = active;
     result.changes   = changes;
     result.exchanges = exchanges;

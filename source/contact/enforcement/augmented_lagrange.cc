@@ -4,6 +4,8 @@
 #include <touchstone/contact/enforcement/spring_enforcement.h>
 #include <touchstone/contact/friction/friction_response.h>
 
+#include <algorithm>
+
 // Augmented Lagrangian (doc/theory.md 6): springs whose forces are augmented until gaps close,
 // after each linear solve or in an outer iteration.
 namespace Touchstone
@@ -49,6 +51,17 @@ namespace Touchstone
       stiffens() const override
       {
         return merged;
+      }
+
+      /** What an open gap leaves out of a force is its stiffness times the gap: small beside the
+       * force, and not only beside the face (doc/theory.md 5, equation (13)). Gaps that positions
+       * are not known to cannot be asked for. An outer loop has a sequence of such states, and ends
+       * it by the gap alone. */
+      double
+      weight_of_gaps(const double largest_force) const override
+      {
+        constexpr double part_of_force = 10., most = 100.;
+        return merged ? std::clamp(1. / (part_of_force * largest_force), 1., most) : 1.;
       }
 
       void

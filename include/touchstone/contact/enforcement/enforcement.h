@@ -47,7 +47,7 @@ namespace Touchstone
     /** Identifies the set, to detect that it recurs. */
     std::uint64_t signature = 0;
     /** Largest |gap| of active and penetration of open rows, relative to the
-     * size of the faces. */
+     * size of the faces, times Enforcement::weight_of_gaps(). */
     double gap = 0.;
     /** Rows of this rank whose status has changed. */
     std::vector<const ContactRow *> changed;
@@ -246,6 +246,16 @@ namespace Touchstone
       }
       Memory(const Memory &) = delete;
     };
+
+    /** @brief By what gaps are multiplied before Newton's method judges them: more than one where
+     * an open gap leaves something out of a force. @param largest_force Of all rows, over stiffness
+     * times size of each. */
+    virtual double
+    weight_of_gaps(double largest_force) const
+    {
+      (void)largest_force;
+      return 1.;
+    }
 
     /** @brief Evaluate the contact forces of the rows, by evaluate_force() where there may be
      * friction; see recover(). */
