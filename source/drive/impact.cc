@@ -11,6 +11,8 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <Epetra_Map.h>
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 /**
@@ -204,8 +206,18 @@ namespace Touchstone
     // Relative velocity that contact does not allow; of accelerations no obstacle velocity is
     // subtracted.
     apply(*motion, v, excess);
+    double largest = 0.;
     for (std::size_t k = 0; moving && k < constraints.size(); ++k)
-      excess.begin()[k] -= constraints[k].condition.value;
+      {
+        excess.begin()[k] -= constraints[k].condition.value;
+        largest = std::max(largest, std::abs(constraints[k].condition.value));
+      }
+    // What round-off leaves of equal velocities is no impact, and nothing may respond to it, as
+    // where supports hold both sides: GMRES would divide by zero.
+    constexpr double round_off = 1e-14;
+    largest = std::max(Utilities::MPI::max(largest, solid.communicator), v.linfty_norm());
+    if (excess.linfty_norm() <= round_off * largest)
+      return loss;
     Operator response{[&](Vector &y, const Vector &p) {
       apply_transposed(*force, p, on_nodes);
       respond(on_nodes);
