@@ -56,7 +56,7 @@ for factor in 1, 1000:
                   {**AUGMENTED, STEPS: 4, "Contact/Friction": "regularised",
                    "Contact/Penalty factor": factor, "Contact pair cone/Behaviour": "coulomb",
                    "Contact pair cone/Friction/Coefficient": 0.2})
-    below(f"{stuck}, iterations of a solve", max(stuck.solves()), 20)
+    below(f"{stuck}, iterations of a solve", max(stuck.solves()), 25)  # 17 to 21 with different kernels of BLAS
 # Soft ones need more Newton iterations until gaps close.
 below(f"{stuck}, Newton iterations", stuck.iterations(), 22)
 
