@@ -3,8 +3,8 @@
 #include <touchstone/contact/search/connected_components.h>
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 namespace Touchstone
@@ -20,14 +20,26 @@ namespace Touchstone
         face_of_node.emplace_back(faces[i]->nodes[m], i);
     std::sort(face_of_node.begin(), face_of_node.end());
 
-    boost::disjoint_sets_with_storage<> components(faces.size());
+    // Disjoint sets of faces, each a tree; the smallest index is the root.
+    std::vector<unsigned int> parent(faces.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&parent](unsigned int i) {
+      while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+      return i;
+    };
     for (std::size_t k = 1; k < face_of_node.size(); ++k)
       if (face_of_node[k].first == face_of_node[k - 1].first)
-        components.union_set(face_of_node[k - 1].second, face_of_node[k].second);
-    std::vector<unsigned int> numbers;
+        {
+          const unsigned int a = root(face_of_node[k - 1].second), b = root(face_of_node[k].second);
+          // The smaller root wins, so that the number of a component is its smallest index whatever
+          // the order of the unions.
+          parent[std::max(a, b)] = std::min(a, b);
+        }
     for (unsigned int i = 0; i < faces.size(); ++i)
-      numbers.push_back(components.find_set(i));
-    return numbers;
+      // Roots instead of parents: equal numbers for all faces of a component.
+      parent[i] = root(i);
+    return parent;
   }
 
 

@@ -10,7 +10,7 @@
 namespace Touchstone
 {
   /** @brief The connected components of some faces, where faces with a common node are connected:
-   * for each face the index of one of its component, the same for all of these. */
+   * for each face the smallest index of a face of its component. */
   std::vector<unsigned int>
   connected_components(const std::vector<const Face *> &faces);
 
