@@ -212,18 +212,17 @@ namespace Touchstone
         excess.begin()[k] -= constraints[k].condition.value;
         largest = std::max(largest, std::abs(constraints[k].condition.value));
       }
-    // What round-off leaves of equal velocities is no impact, and nothing may respond to it, as
-    // where supports hold both sides: GMRES would divide by zero.
-    constexpr double round_off = 1e-14;
-    largest = std::max(Utilities::MPI::max(largest, solid.communicator), v.linfty_norm());
-    if (excess.linfty_norm() <= round_off * largest)
-      return loss;
     Operator response{[&](Vector &y, const Vector &p) {
       apply_transposed(*force, p, on_nodes);
       respond(on_nodes);
       apply(*motion, on_nodes, y);
     }};
-    solve<SolverGMRES<Vector>>(response, DiagonalMatrix<Vector>(scale), 1e-12, excess, impulses);
+    // What round-off leaves of equal velocities is no impact, and its impulses are zero: where
+    // supports hold both sides nothing can respond to it, and GMRES would divide by zero.
+    constexpr double round_off = 1e-14;
+    largest = std::max(Utilities::MPI::max(largest, solid.communicator), v.linfty_norm());
+    if (!(excess.linfty_norm() <= round_off * largest))
+      solve<SolverGMRES<Vector>>(response, DiagonalMatrix<Vector>(scale), 1e-12, excess, impulses);
 
     apply_transposed(*force, impulses, on_nodes);
     // All impulses for now: the normal part is subtracted at the end, once the supports' share has
