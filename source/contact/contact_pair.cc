@@ -128,7 +128,9 @@ namespace Touchstone
             slave_surface.get(),
             master_surface.get(),
             search_distance,
-            input.one_of_several};
+            input.one_of_several,
+            input.slave_body,
+            input.master_body};
   }
 
 
@@ -157,10 +159,8 @@ namespace Touchstone
   bool
   ContactPair::find_edges() const
   {
-    // An overlap of edges at the start is not measured, so that it cannot be taken out of gaps, and
-    // edges of degree 2 are curved.
-    if (!master_surface || input.solid.fe.degree > 1 ||
-        input.parameters.initial_overlap != ContactPairParameters::Overlap::interference)
+    // Edges of degree 2 are curved.
+    if (!master_surface || input.solid.fe.degree > 1)
       return false;
     const bool sharp =
       !sharp_edges(master_surface->owned_faces(), master_surface->neighbour_faces()).empty();

@@ -256,31 +256,23 @@ namespace Touchstone
   std::vector<bool>
   MissedContact::lie_within_bodies(const std::vector<Overlap> &found) const
   {
-    const MPI_Comm communicator = contact.communicator();
-    // Nothing on any rank, the normal case: no cells need be gathered in trees.
-    if (Utilities::MPI::max(found.size(), communicator) == 0)
-      return {};
-    // The cells around a point may belong to any rank.
-    std::vector<Overlap> all;
-    std::size_t          first = 0;
-    const auto           parts = gather_records(found, communicator);
-    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    // Where it is not in doubt bodies are not looked for.
+    std::vector<bool>                                result(found.size(), true);
+    std::map<unsigned int, std::vector<std::size_t>> of_body;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found[k].in_doubt)
+        of_body[found[k].body].push_back(k);
+    for (unsigned int body = 0; body < contact.solid_model().bodies.size(); ++body)
       {
-        if (rank == Utilities::MPI::this_mpi_process(communicator))
-          first = all.size();
-        all.insert(all.end(), parts[rank].begin(), parts[rank].end());
+        const std::vector<std::size_t> &numbers = of_body[body];
+        std::vector<Point<dim>>         points;
+        for (const std::size_t k : numbers)
+          points.push_back(found[k].inside);
+        const std::vector<bool> inside =
+          lie_within(points, contact.solid_model(), body, contact.ghosted_displacement());
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          result[numbers[k]] = inside[k];
       }
-    std::map<unsigned int, DeformedCells> cells;
-    for (const Overlap &overlap : all)
-      cells.try_emplace(overlap.body,
-                        contact.solid_model(),
-                        overlap.body,
-                        contact.ghosted_displacement());
-    std::vector<int> inside;
-    for (const Overlap &overlap : all)
-      inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
-    Utilities::MPI::max(inside, communicator, inside);
-    const auto mine = inside.begin() + first;
-    return {mine, mine + found.size()};
+    return result;
   }
 } // namespace Touchstone

@@ -2,7 +2,6 @@
 
 #include <touchstone/base/exchange.h>
 #include <touchstone/base/input_error.h>
-#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/start_check.h>
 #include <touchstone/contact/tolerances.h>
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -79,42 +77,6 @@ namespace Touchstone
       for (const SurfaceNode &node : surface.owned_nodes())
         mine.push_back(place(surface, node, u));
       return mine;
-    }
-
-    /** Those of this rank's places that lie within a body, whatever ranks have its cells there.
-     * Collective. */
-    std::vector<Place>
-    within(const std::vector<Place> &places,
-           const Solid              &solid,
-           const unsigned int        body,
-           const Vector             &u)
-    {
-      struct Numbered
-      {
-        std::size_t number;
-        Place       place;
-      };
-      const DeformedCells           cells(solid, body, u);
-      std::vector<BoundingBox<dim>> at_places;
-      for (const Place &place : places)
-        at_places.push_back(BoundingBox<dim>({position(place), position(place)}));
-      std::map<unsigned int, std::vector<Numbered>>    questions;
-      std::map<unsigned int, std::vector<std::size_t>> answers;
-      const auto ranks = near_ranks(cells.boxes(), at_places, solid.communicator);
-      for (std::size_t k = 0; k < places.size(); ++k)
-        for (const unsigned int rank : ranks[k])
-          questions[rank].push_back({k, places[k]});
-      for (const auto &[rank, asked] : exchange_records(questions, solid.communicator))
-        for (const Numbered &one : asked)
-          if (cells.contain(position(one.place)))
-            answers[rank].push_back(one.number);
-      std::set<std::size_t> inside;
-      for (const auto &[rank, numbers] : exchange_records(answers, solid.communicator))
-        inside.insert(numbers.begin(), numbers.end());
-      std::vector<Place> result;
-      for (const std::size_t k : inside)
-        result.push_back(places[k]);
-      return result;
     }
 
     /** Whether the closest of the @p others, of all ranks, to any of these places opposes it. The
@@ -185,9 +147,16 @@ namespace Touchstone
             const unsigned int        body,
             const Vector             &u)
     {
+      std::vector<Point<dim>> positions;
+      for (const Place &place : places)
+        positions.push_back(position(place));
+      const std::vector<bool> within = lie_within(positions, solid, body, u);
       // Where bodies are as they should be these are none, or few.
-      const std::vector<Place> inside =
-        gather_all(within(places, solid, body, u), solid.communicator);
+      std::vector<Place> inside;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if (within[k])
+          inside.push_back(places[k]);
+      inside = gather_all(inside, solid.communicator);
       if (inside.empty())
         return 0.;
       std::vector<double> closest(inside.size(), std::numeric_limits<double>::max());

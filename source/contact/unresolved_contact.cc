@@ -239,36 +239,33 @@ namespace Touchstone
   UnresolvedContact::Overlap
   UnresolvedContact::deepest(const std::vector<Overlap> &found, const bool edges) const
   {
-    Overlap result{Point<dim>(), Point<dim>(), 0.};
-    // Nothing on any rank, the normal case: no cells need be gathered in trees.
-    if (Utilities::MPI::max(found.size(), solid.communicator) == 0)
-      return result;
-    // All ranks test all candidates: the cells around a point may belong to any rank.
-    std::vector<Overlap> all = gather_all(found, solid.communicator);
+    // The two sides of a thin body are near each other and seem to overlap with what touches one of
+    // them: only points within the cells of the other body count.
+    std::vector<Point<dim>> of_slave, of_master;
+    for (const Overlap &overlap : found)
+      {
+        of_slave.push_back(overlap.slave);
+        of_master.push_back(overlap.master);
+      }
+    const std::vector<bool> master_inside = lie_within(of_master, solid, slave_body, u);
+    std::vector<bool>       slave_inside(found.size(), true);
+    if (edges)
+      slave_inside = lie_within(of_slave, solid, master_body, u);
     // An order that does not depend on the partition.
-    std::sort(all.begin(), all.end(), [](const Overlap &a, const Overlap &b) {
+    const auto deeper = [](const Overlap &a, const Overlap &b) {
       const auto key = [](const Overlap &o) {
         return std::make_tuple(
           o.depth, o.slave[0], o.slave[1], o.slave[2], o.master[0], o.master[1], o.master[2]);
       };
       return key(a) > key(b);
-    });
-
-    // The two sides of a thin body are near each other and seem to overlap with what touches one of
-    // them: only points within the cells of the other body count.
-    // Each rank has only its own cells: a point lies in the body if it lies in a cell of any rank.
-    const DeformedCells slave_cells(solid, slave_body, u), master_cells(solid, master_body, u);
-    std::vector<int>    master_point_inside, slave_point_inside;
-    for (const Overlap &o : all)
-      {
-        master_point_inside.push_back(slave_cells.contain(o.master));
-        slave_point_inside.push_back(edges ? master_cells.contain(o.slave) : 1);
-      }
-    Utilities::MPI::max(master_point_inside, solid.communicator, master_point_inside);
-    Utilities::MPI::max(slave_point_inside, solid.communicator, slave_point_inside);
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (master_point_inside[k] && slave_point_inside[k])
-        return all[k];
+    };
+    Overlap result{Point<dim>(), Point<dim>(), 0.};
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (master_inside[k] && slave_inside[k] && deeper(found[k], result))
+        result = found[k];
+    for (const Overlap &overlap : gather_all(std::vector<Overlap>{result}, solid.communicator))
+      if (deeper(overlap, result))
+        result = overlap;
     return result;
   }
 

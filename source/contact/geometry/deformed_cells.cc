@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/exchange.h>
+#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 namespace Touchstone
 {
@@ -118,5 +121,42 @@ namespace Touchstone
       if (contains(cells[entry.second], x))
         return true;
     return false;
+  }
+
+
+
+  std::vector<bool>
+  lie_within(const std::vector<Point<dim>> &points,
+             const Solid                   &solid,
+             const unsigned int             body,
+             const Vector                  &u)
+  {
+    std::vector<bool> result(points.size(), false);
+    // No points on any rank, as mostly: no cells need be gathered in trees.
+    if (Utilities::MPI::max(points.size(), solid.communicator) == 0)
+      return result;
+    struct Question
+    {
+      std::size_t             number;
+      std::array<double, dim> x;
+    };
+    const DeformedCells                              cells(solid, body, u);
+    std::vector<DeformedCells::Box>                  at_points;
+    std::map<unsigned int, std::vector<Question>>    questions;
+    std::map<unsigned int, std::vector<std::size_t>> answers;
+    for (const Point<dim> &x : points)
+      at_points.push_back(DeformedCells::Box({x, x}));
+    const auto ranks = near_ranks(cells.boxes(), at_points, solid.communicator);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      for (const unsigned int rank : ranks[k])
+        questions[rank].push_back({k, {{points[k][0], points[k][1], points[k][2]}}});
+    for (const auto &[rank, asked] : exchange_records(questions, solid.communicator))
+      for (const Question &one : asked)
+        if (cells.contain({one.x[0], one.x[1], one.x[2]}))
+          answers[rank].push_back(one.number);
+    for (const auto &[rank, numbers] : exchange_records(answers, solid.communicator))
+      for (const std::size_t k : numbers)
+        result[k] = true;
+    return result;
   }
 } // namespace Touchstone

@@ -83,8 +83,8 @@ namespace Touchstone
                          beside() > Tolerances::touching * reach.size +
                                       Tolerances::beside_edge * std::max(0., -gap)))
       return false;
-    // What was behind the edge before is the other side of a thin body.
-    return !swept || gap >= 0. ||
+    // What was behind the edge before is the other side of a thin body, or an initial overlap.
+    return !swept || gap >= 0. || reach.overlaps ||
            distance_at_start(start) * normal > -Tolerances::deep_edge * reach.size;
   }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 // Rows for what touches between slave nodes: edges that cross, and vertices of the master in slave
 // faces (doc/theory.md 4.2). They are added to those of another pairing, whichever that is. Where
@@ -143,8 +144,10 @@ namespace Touchstone
       std::vector<std::shared_ptr<const ContactBetweenNodes>> present;
       /** The keys of the edges and vertices of the master there. */
       std::vector<std::optional<std::uint64_t>> keys;
-      /** No update has come since the step began. */
-      bool step_begins = true;
+      /** No update has come since the step began, or at all. */
+      bool step_begins = true, at_start = true;
+      /** Slave nodes and keys of what overlapped at the start of the run. */
+      std::set<std::pair<Index, std::uint64_t>> overlaps;
 
       /** Call a function of the other pairing for its rows, which are the first. */
       template <class Function>
@@ -169,6 +172,8 @@ namespace Touchstone
       void
       drop_covered(const std::vector<ContactRow> &rows, std::vector<FoundBetweenNodes> &found);
       void
+      hold_overlaps(const Vector &u, std::vector<FoundBetweenNodes> &found);
+      void
       choose(const std::vector<FoundBetweenNodes> &found, std::vector<ContactRow> &rows);
       void
       replace_rows_of_nodes(const std::vector<FoundBetweenNodes> &found,
@@ -187,12 +192,16 @@ namespace Touchstone
         {
           std::vector<std::pair<Index, std::uint64_t>> in_contact;
           for (std::size_t k = 0; k < n; ++k)
-            if (rows[n + k].was_active && keys[k])
+            if (keys[k] &&
+                (rows[n + k].was_active || (present[k] && present[k]->gap() < 0. &&
+                                            overlaps.count({rows[k].slave, *keys[k]}) > 0)))
               in_contact.emplace_back(rows[k].slave, *keys[k]);
           search.hold(in_contact);
           step_begins = false;
         }
       std::vector<FoundBetweenNodes> found = search.find(u);
+      if (at_start)
+        hold_overlaps(u, found);
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
                                  [](const FoundBetweenNodes &one) {
@@ -207,6 +216,35 @@ namespace Touchstone
         on_edges->forget();
       choose(found, rows);
       replace_rows_of_nodes(found, rows);
+    }
+
+
+
+    // What overlaps at the start of the run counts as in contact; the two sides of a thin body do
+    // not. Collective.
+    void
+    EdgePairing::hold_overlaps(const Vector &u, std::vector<FoundBetweenNodes> &found)
+    {
+      at_start = false;
+      // An overlap that is taken out of gaps for good goes with a node. A point that slides along an
+      // edge comes to other nodes, where it would count at once.
+      if (input.parameters->initial_overlap == ContactPairParameters::Overlap::adjust)
+        return;
+      std::vector<FoundBetweenNodes> deep;
+      for (const FoundBetweenNodes &one : found)
+        if (one.before && !one.held)
+          deep.push_back(one);
+      const std::vector<bool> overlap = search.overlap(deep, u);
+      std::size_t             next    = 0;
+      for (FoundBetweenNodes &one : found)
+        if (one.before && !one.held && overlap[next++])
+          {
+            one.held         = true;
+            const Index node = one.nodes.front().first;
+            if (numbers.count(node) > 0)
+              overlaps.emplace(node, one.contact->master_key());
+          }
+      search.hold({overlaps.begin(), overlaps.end()});
     }
 
 

@@ -138,6 +138,7 @@ namespace Touchstone
       ((x[0] + a * (x[1] - x[0])) - (y[0] + b * (y[1] - y[0]))) * crossing->normal;
     const double deep = -Tolerances::deep_edge * std::min(length, length_other);
     result.before     = result.contact->gap() < deep && gap_before < deep;
+    result.feet       = {{crossing->first, crossing->second}};
     result.order      = {{other.key, edge.key}};
     found.push_back(result);
   }

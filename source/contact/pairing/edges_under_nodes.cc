@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/pairing/edges_under_nodes.h>
 
 #include <limits>
@@ -7,6 +8,8 @@
 // Which slave nodes stay on the edges that they stand on (doc/theory.md 4.2, "Parallel edges").
 namespace Touchstone
 {
+  using namespace dealii;
+
   namespace
   {
     /** Takes the place of the key of a face, which a node on an edge does not have. */
@@ -16,11 +19,12 @@ namespace Touchstone
 
 
   EdgesUnderNodes::EdgesUnderNodes(const PairingInput &input)
-    : slave(*input.slave)
-    , edge_tolerance(input.parameters->edge_tolerance)
+    : input(input)
+    , slave(*input.slave)
     , edges(slave.owned_nodes().size())
     , stood(edges.size(), false)
     , has_left(edges.size(), false)
+    , overlaps(edges.size(), input.slave_body != input.master_body)
   {
   }
 
@@ -32,22 +36,49 @@ namespace Touchstone
                         const SlavePoint &point,
                         const double      size)
   {
-    edges[k] = EdgeOnEdge::find(slave,
-                                search,
-                                point,
-                                slave.owned_nodes()[k].node,
-                                {size, edge_tolerance, stood[k] && !has_left[k]});
+    edges[k] = EdgeOnEdge::find(
+      slave,
+      search,
+      point,
+      slave.owned_nodes()[k].node,
+      {size, input.parameters->edge_tolerance, stood[k] && !has_left[k], overlaps[k]});
     return edges[k].has_value();
   }
 
 
 
-  void
-  EdgesUnderNodes::end_update()
+  bool
+  EdgesUnderNodes::end_update(const Vector &u)
   {
     // The first step begins with the bodies as they are placed.
-    if (!started)
-      commit();
+    if (started)
+      return false;
+    std::vector<std::size_t>               deep;
+    std::array<std::vector<Point<dim>>, 2> feet;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (overlaps[k] && edges[k] && edges[k]->deep())
+        {
+          deep.push_back(k);
+          const auto of_edge = edges[k]->feet(slave.position(slave.owned_nodes()[k], u));
+          for (unsigned int side = 0; side < 2; ++side)
+            feet[side].push_back(of_edge[side]);
+        }
+    const std::vector<bool> slave_inside  = lie_within(feet[0], *input.solid, input.master_body, u),
+                            master_inside = lie_within(feet[1], *input.solid, input.slave_body, u);
+    bool again                            = false;
+    for (std::size_t i = 0; i < deep.size(); ++i)
+      if (!slave_inside[i] || !master_inside[i])
+        {
+          overlaps[deep[i]] = false;
+          again             = true;
+        }
+    again = Utilities::MPI::max(static_cast<int>(again), input.solid->communicator) == 1;
+    if (again)
+      return true;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      overlaps[k] = overlaps[k] && edges[k] && edges[k]->deep();
+    commit();
+    return false;
   }
 
 

@@ -69,7 +69,8 @@ namespace Touchstone
         row.away  = 0.;
         edges[k]->set(row);
       }
-    edges.end_update();
+    if (edges.end_update(u))
+      update(u, rows);
   }
 
 

@@ -206,7 +206,8 @@ namespace Touchstone
           row.has_partner = true;
           set_pointwise_row(*partner, positions[k], row);
         }
-      edges.end_update();
+      if (edges.end_update(u))
+        return update(u, time, rows);
       aggregated.aggregate(rows);
     }
 

@@ -195,6 +195,7 @@ namespace Touchstone
     const double deep  = -Tolerances::deep_edge * face.position(0).distance(face.position(3));
     const double began = (x_start - of_start.evaluate(xi).x) * geometry.normal(xi);
     result.before      = result.contact->gap() < deep && began < deep;
+    result.feet        = {{geometry.evaluate(xi).x, other->position(number)}};
     result.order       = {{key, face.key}};
     return result;
   }

@@ -38,6 +38,14 @@ namespace Touchstone
     std::vector<std::array<dealii::Point<dim>, 8>> cells;
     dealii::RTree<std::pair<Box, std::size_t>>     tree;
   };
+
+  /** @brief For each of some points of this rank, whether it lies in the cells of a body, whatever
+   * ranks have them. Collective. @param u Displacement with ghosts. */
+  std::vector<bool>
+  lie_within(const std::vector<dealii::Point<dim>> &points,
+             const Solid                           &solid,
+             unsigned int                           body,
+             const Vector                          &u);
 } // namespace Touchstone
 
 #endif

@@ -8,6 +8,7 @@
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <array>
 #include <optional>
@@ -48,6 +49,9 @@ namespace Touchstone
       double edge_tolerance = 0.;
       /** The node stays on the edge that it stood on, wherever an iterate has carried it. */
       bool stays = false;
+      /** The bodies overlap at the edge as the run begins: what is behind it is not the other side
+       * of a thin body. */
+      bool overlaps = false;
     };
 
     /** @brief The edge that a slave node stands on or is about to, in the last update of the
@@ -64,6 +68,21 @@ namespace Touchstone
      * normal. */
     bool
     stands() const;
+
+    /** @brief Whether it is deeper behind the edge than bodies in balance fit within. */
+    bool
+    deep() const
+    {
+      return distance * normal <= -Tolerances::deep_edge * reach.size;
+    }
+
+    /** @brief Where it touches, on the slave edge and on the master edge. @param x Of the node. */
+    std::array<dealii::Point<dim>, 2>
+    feet(const dealii::Point<dim> &x) const
+    {
+      const dealii::Point<dim> of_slave = x - (1. - weight) * slave_edge;
+      return {{of_slave, of_slave - distance}};
+    }
 
     /** @brief Set stencil, normal, gap vector and gap, and share, lever and area where the end of
      * the master edge touches; the stencil is empty before, area and share are those of the node.

@@ -32,6 +32,8 @@ namespace Touchstone
     /** The surfaces had passed through each other there when the step began already: the two sides
      * of a thin body, unless the row is held. */
     bool before = false;
+    /** Where they touch, on the slave and on the master. */
+    std::array<dealii::Point<dim>, 2> feet;
     /** An order that does not depend on the numbers of nodes, for what is equally close. */
     std::array<std::uint64_t, 2> order;
   };
@@ -59,6 +61,12 @@ namespace Touchstone
     std::vector<FoundBetweenNodes>
     find(const Vector &u);
 
+    /** @brief For each of @p found whether the bodies overlap there: both points lie within the
+     * other body, as those of the two sides of a thin body do not. Collective.
+     * @param u Displacement with ghosts. */
+    std::vector<bool>
+    overlap(const std::vector<FoundBetweenNodes> &found, const Vector &u) const;
+
     /** @brief Of slave faces, see ContactBetweenNodes::face(). Collective. */
     std::unordered_map<const Face *, std::vector<NormalDerivative>>
     normal_derivatives(const std::vector<const Face *> &needed) const
@@ -75,8 +83,9 @@ namespace Touchstone
     }
 
   private:
-    const Solid   &solid;
-    const Surface &slave;
+    const Solid       &solid;
+    const Surface     &slave;
+    const unsigned int slave_body, master_body;
     /** Slave and master faces around the slave nodes of this rank. */
     FaceExchange slave_exchange, exchange;
     /** What hold() was told, by slave node, with ghosts. */

@@ -39,9 +39,12 @@ namespace Touchstone
       edges[k].reset();
     }
 
-    /** @brief All nodes have been looked at, or cleared. */
-    void
-    end_update();
+    /** @brief All nodes have been looked at, or cleared. Collective.
+     * @param u Displacement with ghosts.
+     * @return Whether it must be done again, on all ranks alike: in the first update nodes were
+     * taken for overlaps that are on the other side of a thin body. */
+    bool
+    end_update(const Vector &u);
 
     /** @brief What node @p k stands on since the last update. */
     const std::optional<EdgeOnEdge> &
@@ -87,12 +90,15 @@ namespace Touchstone
     load(std::vector<std::optional<std::uint64_t>> &of_rows);
 
   private:
-    const Surface &slave;
-    const double   edge_tolerance;
+    const PairingInput input;
+    const Surface     &slave;
     /** Since the last update. */
     std::vector<std::optional<EdgeOnEdge>> edges;
     /** Nodes that stood on an edge when the step began, and those that have left it since. */
     std::vector<bool> stood, has_left;
+    /** Nodes that may lie deep behind an edge since the bodies overlap as the run begins; within
+     * the first update all that have not been found to lie elsewhere. */
+    std::vector<bool> overlaps;
     /** Whether `stood` has been set. */
     bool started = false;
   };

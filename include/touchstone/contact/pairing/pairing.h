@@ -34,6 +34,8 @@ namespace Touchstone
     double search_distance = 0.;
     /** There are other pairs, which may cover what this one does not. */
     bool one_of_several = false;
+    /** The second is invalid for an obstacle. */
+    unsigned int slave_body = 0, master_body = dealii::numbers::invalid_unsigned_int;
   };
 
   struct CoverOfNodes;
