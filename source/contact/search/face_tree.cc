@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/search/face_tree.h>
+#include <touchstone/contact/search/far_side.h>
 
 #include <algorithm>
 #include <array>
@@ -96,6 +97,28 @@ namespace Touchstone
                  result.emplace_back(bg::comparable_distance(x, entry.first), entry.second);
                }));
     std::sort(result.begin(), result.end());
+  }
+
+
+
+  bool
+  FaceTree::meets(const SlavePoint &point, const FaceProjection &candidate) const
+  {
+    const FaceGeometry geometry = exchange.geometry(*candidate.face);
+    if (point.self != nullptr)
+      return point.self->meets(point, geometry, candidate.projection);
+    const FacePoint foot  = geometry.evaluate(candidate.projection.xi);
+    const double    depth = (foot.x - point.x) * foot.normal();
+    if (depth <= 0. || !exchange.swept())
+      return true;
+    const FacePoint at_start =
+      foot_at_start(point.start, *candidate.face, geometry.exact_surface());
+    return !on_far_side(*this,
+                        point.start,
+                        point.normal,
+                        *candidate.face,
+                        depth,
+                        (at_start.x - point.start) * at_start.normal());
   }
 
 

@@ -3,6 +3,7 @@
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/search/connected_components.h>
 #include <touchstone/contact/search/facing_faces.h>
+#include <touchstone/contact/search/far_side.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,26 +82,36 @@ namespace Touchstone
     /** The integral of the gap between the facets along the slave normal, volume; negative where
      * they overlap. */
     double
-    gap(const Face &slave, const Tensor<1, dim> &normal, const FacingFace &facing)
+    gap(const Face                      &slave,
+        const Tensor<1, dim>            &normal,
+        const Face                      &master,
+        const std::vector<OverlapPoint> &points)
     {
       double sum = 0.;
-      for (const OverlapPoint &p : facing.points)
+      for (const OverlapPoint &p : points)
         sum +=
           p.weight *
-          ((evaluate(*facing.master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) *
-           normal);
+          ((evaluate(master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) * normal);
       return sum;
     }
 
-    std::vector<FacingFace>
-    cover(const Face &slave, const std::vector<const Face *> &masters)
+    /** A face as it was when the step began. */
+    Face
+    before(const Face &face)
     {
-      std::vector<FacingFace> result;
-      auto                    points = overlap(slave, masters);
-      for (std::size_t f = 0; f < masters.size(); ++f)
-        if (!points[f].empty())
-          result.push_back({masters[f], std::move(points[f])});
+      Face result         = face;
+      result.displacement = face.committed;
       return result;
+    }
+
+    /** The middle of what is covered of a slave face. */
+    Point<dim>
+    mean_position(const Face &slave, const std::vector<OverlapPoint> &points)
+    {
+      Tensor<1, dim> sum;
+      for (const OverlapPoint &p : points)
+        sum += p.weight * evaluate(slave, nullptr, p.slave).x;
+      return Point<dim>(sum / area(points));
     }
 
     /** connected_components() by face. */
@@ -195,6 +206,35 @@ namespace Touchstone
 
 
 
+  std::vector<FacingFace>
+  FacingFaces::cover(const Face                      &slave,
+                     const Tensor<1, dim>            &normal,
+                     const std::vector<const Face *> &masters) const
+  {
+    std::vector<FacingFace> result;
+    auto                    points = overlap(slave, masters);
+    for (std::size_t f = 0; f < masters.size(); ++f)
+      {
+        FacingFace facing{masters[f], std::move(points[f])};
+        if (facing.points.empty())
+          continue;
+        const double depth = -gap(slave, normal, *masters[f], facing.points) / area(facing.points);
+        if (depth > 0. &&
+            on_far_side(search.tree(),
+                        mean_position(before(slave), facing.points),
+                        normal,
+                        *masters[f],
+                        depth,
+                        -gap(before(slave), normal, before(*masters[f]), facing.points) /
+                          area(facing.points)))
+          continue;
+        result.push_back(std::move(facing));
+      }
+    return result;
+  }
+
+
+
   FacingFaces::Entries
   FacingFaces::entries(const Face &slave, const Tensor<1, dim> &normal) const
   {
@@ -259,13 +299,13 @@ namespace Touchstone
         for (const auto &[key, index] : known->second)
           if (const Face *face = exchange.face(key, index))
             near.push_back(face);
-        return cover(slave, near);
+        return cover(slave, evaluate(slave, nullptr, {{0., 0.}}).normal(), near);
       }
     const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
     near                        = search.near(box(slave), normal);
     // Integrals over the faces are summed in the order of keys, on any number of ranks.
     sort_by_key(near);
-    const std::vector<FacingFace> all       = cover(slave, near);
+    const std::vector<FacingFace> all       = cover(slave, normal, near);
     const bool                    connected = covering_is_connected(all, near);
     if (is_ambiguous(slave, normal, all, connected))
       {
@@ -302,11 +342,11 @@ namespace Touchstone
     // Area and integral of the gap by component.
     const std::map<const Face *, unsigned int> number = components_by_face(masters);
     std::map<unsigned int, Component>          by_number;
-    for (FacingFace &facing : cover(slave, masters))
+    for (FacingFace &facing : cover(slave, normal, masters))
       {
         Component &component = by_number[number.at(facing.master)];
         component.area += area(facing.points);
-        component.gap += gap(slave, normal, facing);
+        component.gap += gap(slave, normal, *facing.master, facing.points);
         component.faces.push_back(std::move(facing));
       }
     for (std::size_t i = 0; i < in.faces.size(); ++i)
@@ -344,7 +384,7 @@ namespace Touchstone
         for (const FacingFace &f : masters)
           {
             const double covered = area(f.points);
-            sum += gap(slave, normal, f);
+            sum += gap(slave, normal, *f.master, f.points);
             whole += covered;
             // The master face that covers most of it represents the component; areas that are equal
             // up to round-off must not change the choice, so the first keeps it.

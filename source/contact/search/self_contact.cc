@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/search/far_side.h>
 #include <touchstone/contact/search/self_contact.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -46,12 +47,6 @@ namespace Touchstone
      * the normal there (37 degrees): more than facets that meet without a sharp edge stray. */
     constexpr double normal_within = 0.8;
 
-    double
-    reference_diagonal(const Face &face)
-    {
-      return face.reference[0].distance(face.reference[face.n_nodes() - 1]);
-    }
-
     /** Whether a point is in front of a face in the reference state. @param foot On the face. */
     bool
     in_front(const Point<dim> &x, const Point<dim> &foot, const Tensor<1, dim> &normal)
@@ -67,13 +62,10 @@ namespace Touchstone
                const AnalyticSurface *exact,
                const double           depth)
     {
-      Face before         = face;
-      before.displacement = face.committed;
-      const FaceGeometry   geometry(before, exact, MasterNormal::face);
-      const Projection     projection = closest_point_projection(point.start, geometry);
-      const Tensor<1, dim> gap        = point.start - geometry.evaluate(projection.xi).x;
+      const FacePoint      foot = foot_at_start(point.start, face, exact);
+      const Tensor<1, dim> gap  = point.start - foot.x;
       // Where the node was beside the face it has come from another one, over which it was.
-      const double behind = -(gap * geometry.normal(projection.xi));
+      const double behind = -(gap * foot.normal());
       return behind > Tolerances::about_normal * gap.norm() && behind > 0.5 * depth &&
              behind > Tolerances::deep_edge * reference_diagonal(face);
     }

@@ -103,11 +103,7 @@ namespace Touchstone
 
     /** @brief Whether a node that may meet a face does so at the closest point. */
     bool
-    meets(const SlavePoint &point, const FaceProjection &candidate) const
-    {
-      return point.self == nullptr ||
-             point.self->meets(point, exchange.geometry(*candidate.face), candidate.projection);
-    }
+    meets(const SlavePoint &point, const FaceProjection &candidate) const;
 
     /** @brief Whether a node can have passed through a face since the step began, if both are of
      * one body. */

@@ -124,6 +124,13 @@ namespace Touchstone
                  const std::vector<FacingFace> &covering,
                  const bool                     connected) const;
 
+    /** Of @p masters those that cover @p slave, but not from the far side of their body.
+     * @param normal Of the slave face. */
+    std::vector<FacingFace>
+    cover(const Face                      &slave,
+          const dealii::Tensor<1, dim>    &normal,
+          const std::vector<const Face *> &masters) const;
+
     /** What covers @p slave if there are several components, by their precedence. */
     std::vector<FacingFace>
     resolve(const Face &slave, const dealii::Tensor<1, dim> &normal, const Entries &entries) const;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_search_far_side_h
+#define touchstone_contact_search_far_side_h
+
+#include <touchstone/contact/search/face_tree.h>
+
+namespace Touchstone
+{
+  /** @brief Of a face as it is before any displacement, length. */
+  double
+  reference_diagonal(const Face &face);
+
+  /** @brief The point of a face that was closest to @p start when the step began, and the normal of
+   * the face there. */
+  FacePoint
+  foot_at_start(const dealii::Point<dim> &start, const Face &face, const AnalyticSurface *exact);
+
+  /**
+   * @brief Whether a face that is behind a slave point is on the far side of a thin body, which
+   * the point has neither entered nor overlaps (doc/theory.md 4, "Far sides").
+   *
+   * When the step began the point was as deep behind the face, and in front of those faces that
+   * were closest to it, whatever their normals; and these look away from the face, or the slave
+   * surface looks away from them. False if steps are not committed.
+   *
+   * @param start           Of the point, when the step began.
+   * @param slave_normal    Unit outward normal of the slave surface there.
+   * @param depth           Behind the face at present, length.
+   * @param depth_at_start  The same when the step began. */
+  bool
+  on_far_side(const FaceTree               &tree,
+              const dealii::Point<dim>     &start,
+              const dealii::Tensor<1, dim> &slave_normal,
+              const Face                   &face,
+              double                        depth,
+              double                        depth_at_start);
+} // namespace Touchstone
+
+#endif
