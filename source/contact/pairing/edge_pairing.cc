@@ -226,8 +226,8 @@ namespace Touchstone
     EdgePairing::hold_overlaps(const Vector &u, std::vector<FoundBetweenNodes> &found)
     {
       at_start = false;
-      // An overlap that is taken out of gaps for good goes with a node. A point that slides along an
-      // edge comes to other nodes, where it would count at once.
+      // An overlap that is taken out of gaps for good goes with a node. A point that slides along
+      // an edge comes to other nodes, where it would count at once.
       if (input.parameters->initial_overlap == ContactPairParameters::Overlap::adjust)
         return;
       std::vector<FoundBetweenNodes> deep;

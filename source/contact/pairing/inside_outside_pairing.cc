@@ -38,6 +38,17 @@ namespace Touchstone
         , met(input.slave->owned_nodes().size())
         , guesses(met.size(), 0)
       {
+        search.commit(nullptr);
+        for (const SurfaceNode &node : input.slave->owned_nodes())
+          start.push_back(node.reference);
+      }
+
+      void
+      commit_positions(const Vector &u) override
+      {
+        search.commit(&u);
+        for (std::size_t k = 0; k < start.size(); ++k)
+          start[k] = input.slave->position(input.slave->owned_nodes()[k], u);
       }
 
       void
@@ -65,9 +76,11 @@ namespace Touchstone
       std::vector<std::optional<MetFace>> met;
       /** Faces at which the search begins, indices in those of the search. */
       std::vector<std::size_t> guesses;
+      /** Positions of the slave nodes at the start of the step. */
+      std::vector<Point<dim>> start;
 
       std::optional<MetFace>
-      meet(const Point<dim> &x, const ContactRow &row, bool stays_at_end, std::size_t &guess) const;
+      meet(std::size_t k, const Point<dim> &x, const ContactRow &row, bool stays_at_end);
       void
       differentiate(const MetFace                       &one,
                     Index                                slave,
@@ -85,15 +98,16 @@ namespace Touchstone
     // On a sharp edge the direction is that which looks at the master most, among those that meet
     // something near.
     std::optional<MetFace>
-    InsideOutsidePairing::meet(const Point<dim> &x,
+    InsideOutsidePairing::meet(const std::size_t k,
+                               const Point<dim> &x,
                                const ContactRow &row,
-                               const bool        stays_at_end,
-                               std::size_t      &guess) const
+                               const bool        stays_at_end)
     {
+      std::size_t         &guess = guesses[k];
       std::vector<MetFace> found;
       double               nearest = std::numeric_limits<double>::max();
       for (const SlaveDirection &direction : slave_directions(*input.slave, row.slave))
-        if (const auto one = search.look({x, direction.n, stays_at_end, guess}))
+        if (const auto one = search.look({x, direction.n, stays_at_end, guess, start[k]}))
           {
             found.push_back({*one, direction, -1. * (direction.n * one->at.point.normal())});
             nearest = std::min(nearest, std::abs(one->at.along));
@@ -123,11 +137,13 @@ namespace Touchstone
       std::vector<Point<dim>>         positions;
       for (const SurfaceNode &node : nodes)
         positions.push_back(input.slave->position(node, u));
-      search.update(positions);
+      std::vector<Point<dim>> all(positions);
+      all.insert(all.end(), start.begin(), start.end());
+      search.update(all);
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];
-          met[k]          = meet(positions[k], row, end.stays(k, row), guesses[k]);
+          met[k]          = meet(k, positions[k], row, end.stays(k, row));
           row.stencil.clear();
           row.has_partner = met[k].has_value();
           row.gap         = 0.;

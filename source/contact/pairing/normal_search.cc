@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/normal_search.h>
+#include <touchstone/contact/search/far_side.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
@@ -48,6 +49,18 @@ namespace Touchstone
     // the smaller key is taken on any number of ranks.
     const double tie =
       Tolerances::on_edge * face.position(0).distance(face.position(face.n_nodes() - 1));
+    if (found->along < 0. && search.exchange().swept())
+      {
+        const FacePoint at_start =
+          foot_at_start(point.start, face, search.exchange().exact_surface(face));
+        if (on_far_side(tree,
+                        point.start,
+                        point.n,
+                        face,
+                        -found->along,
+                        (at_start.x - point.start) * at_start.normal()))
+          return;
+      }
     const double closer =
       best ? std::abs(best->at.along) - std::abs(found->along) : std::numeric_limits<double>::max();
     if (closer > tie || (closer > -tie && face.key < best->face->key))

@@ -23,6 +23,8 @@ namespace Touchstone
     /** Index of the face at which the search begins, in Search::known_faces(); any other only
      * costs time. */
     std::size_t guess = std::numeric_limits<std::size_t>::max();
+    /** Where the point was when the step began, if steps are committed. */
+    dealii::Point<dim> start{};
   };
 
   /** @brief What it sees. */
@@ -45,8 +47,17 @@ namespace Touchstone
   public:
     explicit NormalSearch(const PairingInput &input);
 
+    /** @brief A step ends with the displacement @p u (with ghosts), null for the reference state.
+     * Without any call far sides of thin bodies are not known as such. */
+    void
+    commit(const Vector *u)
+    {
+      search.commit(u);
+    }
+
     /** @brief Exchange the master faces in their present position. Collective.
-     * @param positions Of this rank's slave points. */
+     * @param positions Of this rank's slave points, also those at the start of the step if steps
+     * are committed. */
     void
     update(const std::vector<dealii::Point<dim>> &positions)
     {
