@@ -49,7 +49,7 @@ namespace Touchstone
     // the smaller key is taken on any number of ranks.
     const double tie =
       Tolerances::on_edge * face.position(0).distance(face.position(face.n_nodes() - 1));
-    if (found->along < 0. && search.exchange().swept())
+    if (is_deep(tree, face, -found->along))
       {
         const FacePoint at_start =
           foot_at_start(point.start, face, search.exchange().exact_surface(face));

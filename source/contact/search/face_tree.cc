@@ -109,7 +109,7 @@ namespace Touchstone
       return point.self->meets(point, geometry, candidate.projection);
     const FacePoint foot  = geometry.evaluate(candidate.projection.xi);
     const double    depth = (foot.x - point.x) * foot.normal();
-    if (depth <= 0. || !exchange.swept())
+    if (!is_deep(*this, *candidate.face, depth))
       return true;
     const FacePoint at_start =
       foot_at_start(point.start, *candidate.face, geometry.exact_surface());

@@ -219,7 +219,7 @@ namespace Touchstone
         if (facing.points.empty())
           continue;
         const double depth = -gap(slave, normal, *masters[f], facing.points) / area(facing.points);
-        if (depth > 0. &&
+        if (is_deep(search.tree(), *masters[f], depth) &&
             on_far_side(search.tree(),
                         mean_position(before(slave), facing.points),
                         normal,

@@ -32,6 +32,14 @@ namespace Touchstone
 
 
   bool
+  is_deep(const FaceTree &tree, const Face &face, const double depth)
+  {
+    return tree.exchange.swept() && depth > Tolerances::deep_edge * reference_diagonal(face);
+  }
+
+
+
+  bool
   on_far_side(const FaceTree       &tree,
               const Point<dim>     &start,
               const Tensor<1, dim> &slave_normal,
@@ -40,9 +48,7 @@ namespace Touchstone
               const double          depth_at_start)
   {
     // What it has entered since the step began it has not been behind.
-    if (!tree.exchange.swept() ||
-        std::min(depth, 2. * depth_at_start) < Tolerances::deep_edge * reference_diagonal(face) ||
-        depth_at_start < 0.5 * depth)
+    if (depth_at_start < 0.5 * depth)
       return false;
     const FacePoint foot   = foot_at_start(start, face, tree.exchange.exact_surface(face));
     const double    radius = start.distance(foot.x);

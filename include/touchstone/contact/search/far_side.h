@@ -16,13 +16,18 @@ namespace Touchstone
   FacePoint
   foot_at_start(const dealii::Point<dim> &start, const Face &face, const AnalyticSurface *exact);
 
+  /** @brief Whether a face is deeper behind a slave point than bodies in balance fit within, so
+   * that on_far_side() has to be asked. False if steps are not committed. @param depth Length. */
+  bool
+  is_deep(const FaceTree &tree, const Face &face, double depth);
+
   /**
-   * @brief Whether a face that is behind a slave point is on the far side of a thin body, which
-   * the point has neither entered nor overlaps (doc/theory.md 4, "Far sides").
+   * @brief Whether a face that is deep behind a slave point is on the far side of a thin body,
+   * which the point has neither entered nor overlaps (doc/theory.md 4, "Far sides").
    *
    * When the step began the point was as deep behind the face, and in front of those faces that
    * were closest to it, whatever their normals; and these look away from the face, or the slave
-   * surface looks away from them. False if steps are not committed.
+   * surface looks away from them.
    *
    * @param start           Of the point, when the step began.
    * @param slave_normal    Unit outward normal of the slave surface there.
