@@ -52,11 +52,11 @@ namespace Touchstone
       return false;
     const FacePoint foot   = foot_at_start(start, face, tree.exchange.exact_surface(face));
     const double    radius = start.distance(foot.x);
-    FaceTree::Box   around({start, start});
-    around.extend(radius);
+    FaceTree::Box   near({start, start});
+    near.extend(radius);
     std::vector<FacePoint> feet;
     double                 closest = std::numeric_limits<double>::max();
-    for (const std::size_t i : tree.meeting_in_step(around))
+    for (const std::size_t i : tree.meeting_in_step(near))
       {
         const Face &other = tree.exchange.faces()[i];
         feet.push_back(foot_at_start(start, other, tree.exchange.exact_surface(other)));
