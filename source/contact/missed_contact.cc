@@ -13,12 +13,30 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 // Contact that passes between the slave nodes: rows exist at these alone, and Newton's method finds
 // nothing wrong with a state in which the bodies overlap elsewhere (doc/theory.md 4.1).
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** How near a point is to one of its nodes: 1 there. Rounded off the multiples that the weights
+     * of rounded coordinates are. */
+    double
+    concentration(const MaterialPoint &point)
+    {
+      double sum = 0.;
+      for (unsigned int a = 0; a < point.n; ++a)
+        sum += point.weights[a] * point.weights[a];
+      constexpr double step = 1e-5, shift = 0.3183;
+      return std::floor(sum / step + shift);
+    }
+  } // namespace
+
+
 
   MissedContact::MissedContact(const Contact     &contact,
                                const ContactPair &pair,
@@ -210,8 +228,23 @@ namespace Touchstone
   std::vector<MaterialPoint>
   MissedContact::points() const
   {
+    std::vector<Overlap> found = missed();
+    // The first ones choose their nodes first. By the depth at the points, not by the deepest that
+    // a search has found of each face. Of equally deep ones, as under a straight ridge, those that
+    // are nearest to a node have the least choice; their place, which has no meaning, comes last.
+    double deepest = 0.;
+    for (const Overlap &overlap : found)
+      deepest = std::max(deepest, overlap.point.depth);
+    const auto order = [deepest](const Overlap &overlap) {
+      const MaterialPoint &point  = overlap.point;
+      const auto [depth, x, y, z] = overlap_order(point.depth, overlap.at_point, deepest);
+      return std::make_tuple(depth, -concentration(point), x, y, z);
+    };
+    std::sort(found.begin(), found.end(), [&](const Overlap &a, const Overlap &b) {
+      return order(a) < order(b);
+    });
     std::vector<MaterialPoint> result;
-    for (const Overlap &overlap : missed())
+    for (const Overlap &overlap : found)
       // An obstacle behind a face is no overlap of the surface.
       if (overlap.point.n > 0)
         result.push_back(overlap.point);

@@ -246,6 +246,7 @@ namespace Touchstone
           worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
         worst.point.face  = face.key;
         worst.point.depth = worst.place.depth;
+        worst.at_point    = evaluate(face, pair.slave().exact_surface(face), worst.point.xi).x;
         result.push_back(worst);
       }
     return result;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <vector>
 
 // Obstacles that pass between the slave nodes. They have no nodes: where they are deepest is found
 // from their distance, which tells the way to them.
@@ -38,18 +39,28 @@ namespace Touchstone
       for (const double a : MeasuredFace::samples)
         for (const double b : MeasuredFace::samples)
           take({{a, b, 0.}});
+      // The best of all that are beside it: not the first, which the order of coordinates, and so
+      // how the face lies, would choose.
+      const std::vector<double> behind =
+        farthest > 0. ? std::vector<double>{0., -1., 1.} : std::vector<double>{0.};
       for (double step = 0.25; step > 1e-3; step *= 0.5)
         for (unsigned int turn = 0; turn < 2; ++turn)
-          for (unsigned int i = 0; i < 3; ++i)
-            for (const double sign : {-1., 1.})
-              {
-                Behind trial = best;
-                trial[i]     = i < 2 ? std::clamp(trial[i] + sign * step, -1., 1.)
-                                     : std::clamp(trial[i] + sign * step * farthest, 0., farthest);
-                take(trial);
-              }
+          {
+            const Behind from = best;
+            for (const double a : {0., -1., 1.})
+              for (const double b : {0., -1., 1.})
+                for (const double c : behind)
+                  take({{std::clamp(from[0] + a * step, -1., 1.),
+                         std::clamp(from[1] + b * step, -1., 1.),
+                         std::clamp(from[2] + c * step * farthest, 0., farthest)}});
+            if (best == from)
+              break;
+          }
       return best;
     }
+
+
+
     /** The gradient of a function of face coordinates. */
     using Gradient = std::function<std::array<double, 2>(const MeasuredFace::Xi &)>;
 
@@ -221,10 +232,12 @@ namespace Touchstone
                 const MeasuredFace::Xi where = rounded(deepest_in(slave, {{at[0], at[1]}}));
                 MaterialPoint         &point = found.back().point;
                 point                        = MaterialPoint(face, pair.slave().trace(face), where);
-                // Exact, where the depth of the search depends on its order: along a cylinder
+                // Exact, where what the search finds is as coarse as its steps: along a cylinder
                 // many places are nearly as deep, and points of faces are compared.
                 point.depth              = -gap({{where[0], where[1], 0.}}) - taken_out;
                 found.back().place.depth = std::max(counts, point.depth);
+                found.back().deepest     = point;
+                found.back().at_point    = position({{where[0], where[1], 0.}});
               }
             // Counted once.
             area = 0.;

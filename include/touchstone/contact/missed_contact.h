@@ -96,6 +96,8 @@ namespace Touchstone
       MaterialPoint deepest{};
       /** In the middle of what is deepest, on the slave face. */
       MaterialPoint point{};
+      /** Where that is. */
+      dealii::Point<dim> at_point{};
     };
     /** A point of a slave face that lies within the other surface. */
     struct Sample
