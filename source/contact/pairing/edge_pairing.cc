@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/surface_cone.h>
 #include <touchstone/contact/pairing/edge_search.h>
 #include <touchstone/contact/pairing/nodes_on_edges.h>
@@ -235,9 +236,23 @@ namespace Touchstone
         if (one.before && !one.held)
           deep.push_back(one);
       const std::vector<bool> overlap = search.overlap(deep, u);
-      std::size_t             next    = 0;
+      // Vertices that share a node of their slave faces would compete for its row, and are left to
+      // points inside these faces. Each is counted once, by the owner of its first node.
+      std::vector<Index> of_vertices;
+      for (std::size_t k = 0; k < deep.size(); ++k)
+        if (overlap[k] && deep[k].of_vertex && numbers.count(deep[k].nodes.front().first) > 0)
+          for (const auto &[node, weight] : deep[k].nodes)
+            of_vertices.push_back(node);
+      of_vertices = gather_all(of_vertices, input.solid->communicator);
+      std::sort(of_vertices.begin(), of_vertices.end());
+      const auto shared = [&](const auto &node) {
+        const auto range = std::equal_range(of_vertices.begin(), of_vertices.end(), node.first);
+        return range.second - range.first > 1;
+      };
+      std::size_t next = 0;
       for (FoundBetweenNodes &one : found)
-        if (one.before && !one.held && overlap[next++])
+        if (one.before && !one.held && overlap[next++] &&
+            !(one.of_vertex && std::any_of(one.nodes.begin(), one.nodes.end(), shared)))
           {
             one.held         = true;
             const Index node = one.nodes.front().first;
