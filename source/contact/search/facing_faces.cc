@@ -79,8 +79,15 @@ namespace Touchstone
       return sum / face.n_nodes();
     }
 
-    /** The integral of the gap between the facets along the slave normal, volume; negative where
-     * they overlap. */
+    /** The gap between the facets along the slave normal at a point, length; negative where they
+     * overlap. */
+    double
+    gap(const Face &slave, const Tensor<1, dim> &normal, const Face &master, const OverlapPoint &p)
+    {
+      return (evaluate(master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) * normal;
+    }
+
+    /** The integral of the gap, volume. */
     double
     gap(const Face                      &slave,
         const Tensor<1, dim>            &normal,
@@ -89,9 +96,7 @@ namespace Touchstone
     {
       double sum = 0.;
       for (const OverlapPoint &p : points)
-        sum +=
-          p.weight *
-          ((evaluate(master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) * normal);
+        sum += p.weight * gap(slave, normal, master, p);
       return sum;
     }
 
@@ -206,6 +211,28 @@ namespace Touchstone
 
 
 
+  bool
+  FacingFaces::lies_far(const Face           &slave,
+                        const Tensor<1, dim> &normal,
+                        const FacingFace     &facing) const
+  {
+    const Face                      &master = *facing.master;
+    const std::vector<OverlapPoint> &points = facing.points;
+    // Most faces are not behind their points, as the first of these tells.
+    if (!is_deep(search.tree(), master, -gap(slave, normal, master, points.front())))
+      return false;
+    const double covered = area(points), depth = -gap(slave, normal, master, points) / covered;
+    return is_deep(search.tree(), master, depth) &&
+           on_far_side(search.tree(),
+                       mean_position(before(slave), points),
+                       normal,
+                       master,
+                       depth,
+                       -gap(before(slave), normal, before(master), points) / covered);
+  }
+
+
+
   std::vector<FacingFace>
   FacingFaces::cover(const Face                      &slave,
                      const Tensor<1, dim>            &normal,
@@ -216,19 +243,8 @@ namespace Touchstone
     for (std::size_t f = 0; f < masters.size(); ++f)
       {
         FacingFace facing{masters[f], std::move(points[f])};
-        if (facing.points.empty())
-          continue;
-        const double depth = -gap(slave, normal, *masters[f], facing.points) / area(facing.points);
-        if (is_deep(search.tree(), *masters[f], depth) &&
-            on_far_side(search.tree(),
-                        mean_position(before(slave), facing.points),
-                        normal,
-                        *masters[f],
-                        depth,
-                        -gap(before(slave), normal, before(*masters[f]), facing.points) /
-                          area(facing.points)))
-          continue;
-        result.push_back(std::move(facing));
+        if (!facing.points.empty() && !lies_far(slave, normal, facing))
+          result.push_back(std::move(facing));
       }
     return result;
   }

@@ -124,6 +124,13 @@ namespace Touchstone
                  const std::vector<FacingFace> &covering,
                  const bool                     connected) const;
 
+    /** Whether what a master face covers of @p slave is behind it on the far side of a thin body.
+     * @param normal Of the slave face. */
+    bool
+    lies_far(const Face                   &slave,
+             const dealii::Tensor<1, dim> &normal,
+             const FacingFace             &facing) const;
+
     /** Of @p masters those that cover @p slave, but not from the far side of their body.
      * @param normal Of the slave face. */
     std::vector<FacingFace>
