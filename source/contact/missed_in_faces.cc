@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 // Where the slave and master faces of a pair lie within each other: points of each in the other
 // (doc/theory.md 4.1). For obstacles see missed_obstacle.cc.
@@ -263,7 +264,7 @@ namespace Touchstone
     for (std::size_t k = 0; k < found.size(); ++k)
       if (found[k].in_doubt)
         of_body[found[k].body].push_back(k);
-    for (unsigned int body = 0; body < contact.solid_model().bodies.size(); ++body)
+    for (const unsigned int body : std::set<unsigned int>{pair.slave_body(), pair.master_body()})
       {
         const std::vector<std::size_t> &numbers = of_body[body];
         std::vector<Point<dim>>         points;

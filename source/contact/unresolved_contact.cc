@@ -241,16 +241,16 @@ namespace Touchstone
   {
     // The two sides of a thin body are near each other and seem to overlap with what touches one of
     // them: only points within the cells of the other body count.
-    std::vector<Point<dim>> of_slave, of_master;
+    std::vector<Point<dim>>                of_master;
+    std::vector<std::array<Point<dim>, 2>> of_both;
     for (const Overlap &overlap : found)
       {
-        of_slave.push_back(overlap.slave);
         of_master.push_back(overlap.master);
+        of_both.push_back({{overlap.slave, overlap.master}});
       }
-    const std::vector<bool> master_inside = lie_within(of_master, solid, slave_body, u);
-    std::vector<bool>       slave_inside(found.size(), true);
-    if (edges)
-      slave_inside = lie_within(of_slave, solid, master_body, u);
+    const std::vector<bool> inside =
+      edges ? lie_within_each_other(of_both, solid, {{slave_body, master_body}}, u)
+            : lie_within(of_master, solid, slave_body, u);
     // An order that does not depend on the partition.
     const auto deeper = [](const Overlap &a, const Overlap &b) {
       const auto key = [](const Overlap &o) {
@@ -261,7 +261,7 @@ namespace Touchstone
     };
     Overlap result{Point<dim>(), Point<dim>(), 0.};
     for (std::size_t k = 0; k < found.size(); ++k)
-      if (master_inside[k] && slave_inside[k] && deeper(found[k], result))
+      if (inside[k] && deeper(found[k], result))
         result = found[k];
     for (const Overlap &overlap : gather_all(std::vector<Overlap>{result}, solid.communicator))
       if (deeper(overlap, result))

@@ -5,6 +5,7 @@ solvers, pairings and roles, symmetry, and what cannot be solved says so."""
 
 from touchstone_test import (AUGMENTED, CG, GMRES, MULTIPLIERS, PENALTY, STEPS, below, check, finish,
                              folder, golden, relative, run, same, tests)
+from edge_on_edge_scenes import ON_EDGE, block, pressed  # of tests/, which touchstone_test finds
 
 CONSISTENT = {"Contact/Linearisation": "consistent"}
 crossed, across, vertex = (golden(name) for name in
@@ -47,54 +48,14 @@ quadratic = run("quadratic", scene, {**CONSISTENT, STEPS: 1})
 check(quadratic.iterations() <= 7, f"{quadratic}: {quadratic.iterations()} iterations")
 
 # Two blocks that meet in one edge are pressed on each other across it: one of them on a plane in the middle.
-BLOCK = """subsection Body {name}
-  set Symmetry            = front, back
-  set Boundary conditions = {sides}
-  subsection Geometry
-    set Lower corner = {corner}, 0, {corner}
-    set Upper corner = {corner} + 1, 1, {corner} + 1
-    set Cells        = 3, {cells}, 3
-  end
-  subsection Material
-    set Law           = neo-Hookean
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-  end
-"""
-DRIVEN = """  subsection Boundary {side}
-    set Displacement x = {way} * t
-    set Displacement z = {way} * t
-  end
-"""
 PLANE = """subsection Obstacle plane
   set Point     = 1, 0, 1
   set Direction = 1, 0, 1
 end
 """
-
-
-def block(name, corner, cells, way):
-    """A block whose two sides away from the edge are driven."""
-    sides = ("left", "bottom") if corner == 0 else ("right", "top")
-    text = BLOCK.format(name=name, sides=", ".join(sides), corner=corner, cells=cells)
-    return text.replace(f"{corner} + 1", str(corner + 1)) + "".join(
-        DRIVEN.format(side=side, way=way) for side in sides) + "end\n"
-
-
-def pressed(name, head, blocks, master, slave="bottom, left"):
-    """Write a scene of blocks; the upper one is the slave."""
-    path = folder / f"{name}.prm"
-    path.write_text(f"{head}set Contact pairs = edge\n{blocks}subsection Contact pair edge\n"
-                    f"  set Slave body       = upper\n  set Slave boundaries = {slave}\n{master}end\n"
-                    "subsection Load stepping\n  set Steps = 5\nend\n", encoding="utf-8")
-    return path
-
-
 upper = block("upper", 1, 2, -0.1)
 on_plane = run("on_plane", pressed("on_plane", "set Bodies    = upper\nset Obstacles = plane\n", upper + PLANE,
                                    "  set Obstacle         = plane\n")).force("edge")
-ON_EDGE = ("  set Master body       = lower\n  set Master boundaries = top, right\n"
-           "  set Pairing           = pointwise\n")
 parallel = pressed("parallel", "set Bodies = lower, upper\n", block("lower", 0, 2, 0.1) + upper, ON_EDGE)
 for name, settings in (("parallel", {}), ("parallel_augmented", AUGMENTED), ("parallel_consistent", CONSISTENT)):
     result = run(name, parallel, settings)

@@ -5,10 +5,11 @@ grows with time. Before, all of this ended with exit code 2, but for parallel ed
 were by half too small with exit code 0."""
 # ctest: goldens = edge_across_edge, vertex_in_slave_face
 
-from touchstone_test import AUGMENTED, GMRES, MULTIPLIERS, STEPS, below, finish, folder, golden, run, same, tests
+from touchstone_test import AUGMENTED, GMRES, MULTIPLIERS, STEPS, below, finish, golden, run, same, tests
+from edge_on_edge_scenes import ON_EDGE, block, pressed  # of tests/, which touchstone_test finds
 
 LOWER, UPPER = "Body {}/Geometry/Lower corner", "Body {}/Geometry/Upper corner"
-RAMP = "Contact pair {}/Initial overlap"
+RAMP, PAIRING = "Contact pair {}/Initial overlap", "Contact pair edge/Pairing"
 
 
 def moved(body, sides, lower, upper, by, drive):
@@ -33,52 +34,22 @@ same(vertex, run("vertex_ramp", tests / "vertex_in_slave_face.prm", {**settings,
      1e-7)
 
 # Two blocks edge on edge.
-BLOCK = """subsection Body {name}
-  set Symmetry            = front, back
-  set Boundary conditions = {sides[0]}, {sides[1]}
-  subsection Geometry
-    set Lower corner = {corner}, 0, {corner}
-    set Upper corner = {corner} + 1, 1, {corner} + 1
-    set Cells        = 3, 2, 3
-  end
-  subsection Material
-    set Law           = neo-Hookean
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-  end
-"""
-DRIVEN = """  subsection Boundary {side}
-    set Displacement x = {way} * t
-    set Displacement z = {way} * t
-  end
-"""
-
-
-def blocks(name, overlap):
+def blocks(overlap):
     """Write the scene of blocks that overlap by a part of what presses them together."""
-    text = "set Bodies        = lower, upper\nset Contact pairs = edge\n"
-    for body, sides, corner, way in (("lower", ("left", "bottom"), 0, 0.1),
-                                     ("upper", ("right", "top"), 1 - overlap, overlap - 0.1)):
-        text += BLOCK.format(name=body, sides=sides, corner=corner).replace(f"{corner} + 1", str(corner + 1))
-        text += "".join(DRIVEN.format(side=side, way=way) for side in sides) + "end\n"
-    path = folder / f"{name}.prm"
-    path.write_text(text + "subsection Contact pair edge\n  set Slave body        = upper\n"
-                    "  set Slave boundaries  = bottom, left\n  set Master body       = lower\n"
-                    "  set Master boundaries = top, right\nend\n"
-                    "subsection Load stepping\n  set Steps = 1\nend\n", encoding="utf-8")
-    return path
+    return pressed(f"overlap_{overlap}", "set Bodies = lower, upper\n",
+                   block("lower", 0, 2, 0.1) + block("upper", 1 - overlap, 2, overlap - 0.1), ON_EDGE)
 
 
-pressed = run("pressed", blocks("pressed", 0)).force("edge")
+without = run("without", blocks(0)).force("edge")
 for overlap in (0.01, 0.06, 0.1):
-    scene = blocks(f"overlap_{overlap}", overlap)
-    for name, settings in (("averaged", {}), ("pointwise", {"Contact pair edge/Pairing": "pointwise"}),
-                           ("inside_outside", {"Contact pair edge/Pairing": "inside-outside"}),
-                           ("ramp", {RAMP.format("edge"): "ramp", STEPS: 3})):
-        result = run(f"{scene.stem}_{name}", scene, settings)
+    scene = blocks(overlap)
+    for name, settings in (("averaged", {PAIRING: "averaged"}), ("pointwise", {}),
+                           ("inside_outside", {PAIRING: "inside-outside"}),
+                           ("ramp", {PAIRING: "averaged", RAMP.format("edge"): "ramp", STEPS: 3})):
+        result = run(f"{scene.stem}_{name}", scene, {STEPS: 1, **settings})
         below(f"{result}, force against that of blocks without overlap",
-              max(abs(a - b) for a, b in zip(result.force("edge"), pressed)) / pressed[2], 1e-8)
-    two = run(f"{scene.stem}_two_ranks", scene, ranks=2)
+              max(abs(a - b) for a, b in zip(result.force("edge"), without)) / without[2], 1e-8)
+    two = run(f"{scene.stem}_two_ranks", scene, {STEPS: 1, PAIRING: "averaged"}, ranks=2)
     below(f"{two}, force against one rank",
-          max(abs(a - b) for a, b in zip(two.force("edge"), pressed)) / pressed[2], 1e-8)
+          max(abs(a - b) for a, b in zip(two.force("edge"), without)) / without[2], 1e-8)
 finish()

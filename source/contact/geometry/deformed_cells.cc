@@ -159,4 +159,25 @@ namespace Touchstone
         result[k] = true;
     return result;
   }
+
+
+
+  std::vector<bool>
+  lie_within_each_other(const std::vector<std::array<Point<dim>, 2>> &pairs,
+                        const Solid                                  &solid,
+                        const std::array<unsigned int, 2>            &bodies,
+                        const Vector                                 &u)
+  {
+    std::vector<bool> result(pairs.size(), true);
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        std::vector<Point<dim>> points;
+        for (const auto &pair : pairs)
+          points.push_back(pair[side]);
+        const std::vector<bool> inside = lie_within(points, solid, bodies[1 - side], u);
+        for (std::size_t k = 0; k < pairs.size(); ++k)
+          result[k] = result[k] && inside[k];
+      }
+    return result;
+  }
 } // namespace Touchstone

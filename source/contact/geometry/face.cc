@@ -173,4 +173,22 @@ namespace Touchstone
       }
     return result;
   }
+
+
+
+  Face
+  at_start_of_step(const Face &face)
+  {
+    Face result         = face;
+    result.displacement = face.committed;
+    return result;
+  }
+
+
+
+  double
+  reference_diagonal(const Face &face)
+  {
+    return face.reference[0].distance(face.reference[face.n_nodes() - 1]);
+  }
 } // namespace Touchstone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/surface_cone.h>
 #include <touchstone/contact/pairing/edge_search.h>
 #include <touchstone/contact/pairing/nodes_on_edges.h>
@@ -235,7 +236,11 @@ namespace Touchstone
       for (const FoundBetweenNodes &one : found)
         if (one.before && !one.held)
           deep.push_back(one);
-      const std::vector<bool> overlap = search.overlap(deep, u);
+      std::vector<std::array<Point<dim>, 2>> feet;
+      for (const FoundBetweenNodes &one : deep)
+        feet.push_back(one.feet);
+      const std::vector<bool> overlap =
+        lie_within_each_other(feet, *input.solid, {{input.slave_body, input.master_body}}, u);
       // Vertices that share a node of their slave faces would compete for its row, and are left to
       // points inside these faces. Each is counted once, by the owner of its first node.
       std::vector<Index> of_vertices;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/pairing/edge_search.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -31,8 +30,6 @@ namespace Touchstone
   EdgeSearch::EdgeSearch(const PairingInput &input)
     : solid(*input.solid)
     , slave(*input.slave)
-    , slave_body(input.slave_body)
-    , master_body(input.master_body)
     // All faces are needed that are around a node within two edges of a slave node.
     , slave_exchange(slave,
                      2. * std::max(input.slave->largest_face(), input.master->largest_face()),
@@ -103,22 +100,6 @@ namespace Touchstone
         exchange.forget();
       }
     return found;
-  }
-
-
-
-  std::vector<bool>
-  EdgeSearch::overlap(const std::vector<FoundBetweenNodes> &found, const Vector &u) const
-  {
-    std::array<std::vector<Point<dim>>, 2> feet;
-    for (const FoundBetweenNodes &one : found)
-      for (unsigned int side = 0; side < 2; ++side)
-        feet[side].push_back(one.feet[side]);
-    std::vector<bool>       result    = lie_within(feet[0], solid, master_body, u);
-    const std::vector<bool> of_master = lie_within(feet[1], solid, slave_body, u);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      result[k] = result[k] && of_master[k];
-    return result;
   }
 
 

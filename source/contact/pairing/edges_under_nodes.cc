@@ -54,20 +54,18 @@ namespace Touchstone
     if (started)
       return false;
     std::vector<std::size_t>               deep;
-    std::array<std::vector<Point<dim>>, 2> feet;
+    std::vector<std::array<Point<dim>, 2>> feet;
     for (std::size_t k = 0; k < edges.size(); ++k)
       if (overlaps[k] && edges[k] && edges[k]->deep())
         {
           deep.push_back(k);
-          const auto of_edge = edges[k]->feet(slave.position(slave.owned_nodes()[k], u));
-          for (unsigned int side = 0; side < 2; ++side)
-            feet[side].push_back(of_edge[side]);
+          feet.push_back(edges[k]->feet(slave.position(slave.owned_nodes()[k], u)));
         }
-    const std::vector<bool> slave_inside  = lie_within(feet[0], *input.solid, input.master_body, u),
-                            master_inside = lie_within(feet[1], *input.solid, input.slave_body, u);
-    bool again                            = false;
+    const std::vector<bool> overlap =
+      lie_within_each_other(feet, *input.solid, {{input.slave_body, input.master_body}}, u);
+    bool again = false;
     for (std::size_t i = 0; i < deep.size(); ++i)
-      if (!slave_inside[i] || !master_inside[i])
+      if (!overlap[i])
         {
           overlaps[deep[i]] = false;
           again             = true;

@@ -49,18 +49,8 @@ namespace Touchstone
     // the smaller key is taken on any number of ranks.
     const double tie =
       Tolerances::on_edge * face.position(0).distance(face.position(face.n_nodes() - 1));
-    if (is_deep(tree, face, -found->along))
-      {
-        const FacePoint at_start =
-          foot_at_start(point.start, face, search.exchange().exact_surface(face));
-        if (on_far_side(tree,
-                        point.start,
-                        point.n,
-                        face,
-                        -found->along,
-                        (at_start.x - point.start) * at_start.normal()))
-          return;
-      }
+    if (on_far_side(tree, point.start, point.n, face, -found->along))
+      return;
     const double closer =
       best ? std::abs(best->at.along) - std::abs(found->along) : std::numeric_limits<double>::max();
     if (closer > tie || (closer > -tie && face.key < best->face->key))

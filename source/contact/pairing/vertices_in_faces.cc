@@ -156,8 +156,7 @@ namespace Touchstone
                              const std::array<double, 2> &xi) const
   {
     const auto &[other, number] = around.at(vertex).front();
-    Face at_start               = face;
-    at_start.displacement       = face.committed;
+    const Face         at_start = at_start_of_step(face);
     const FaceGeometry geometry(face, slave.exact_surface(face), MasterNormal::averaged),
       of_start(at_start, slave.exact_surface(face), MasterNormal::face);
     const Point<dim> x_start = start.at(vertex);

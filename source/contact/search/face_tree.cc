@@ -107,18 +107,9 @@ namespace Touchstone
     const FaceGeometry geometry = exchange.geometry(*candidate.face);
     if (point.self != nullptr)
       return point.self->meets(point, geometry, candidate.projection);
-    const FacePoint foot  = geometry.evaluate(candidate.projection.xi);
-    const double    depth = (foot.x - point.x) * foot.normal();
-    if (!is_deep(*this, *candidate.face, depth))
-      return true;
-    const FacePoint at_start =
-      foot_at_start(point.start, *candidate.face, geometry.exact_surface());
-    return !on_far_side(*this,
-                        point.start,
-                        point.normal,
-                        *candidate.face,
-                        depth,
-                        (at_start.x - point.start) * at_start.normal());
+    const FacePoint foot = geometry.evaluate(candidate.projection.xi);
+    return !on_far_side(
+      *this, point.start, point.normal, *candidate.face, (foot.x - point.x) * foot.normal());
   }
 
 

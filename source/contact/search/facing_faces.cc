@@ -100,15 +100,6 @@ namespace Touchstone
       return sum;
     }
 
-    /** A face as it was when the step began. */
-    Face
-    before(const Face &face)
-    {
-      Face result         = face;
-      result.displacement = face.committed;
-      return result;
-    }
-
     /** The middle of what is covered of a slave face. */
     Point<dim>
     mean_position(const Face &slave, const std::vector<OverlapPoint> &points)
@@ -221,14 +212,14 @@ namespace Touchstone
     // Most faces are not behind their points, as the first of these tells.
     if (!is_deep(search.tree(), master, -gap(slave, normal, master, points.front())))
       return false;
-    const double covered = area(points), depth = -gap(slave, normal, master, points) / covered;
-    return is_deep(search.tree(), master, depth) &&
-           on_far_side(search.tree(),
-                       mean_position(before(slave), points),
+    const Face   before  = at_start_of_step(slave);
+    const double covered = area(points);
+    return on_far_side(search.tree(),
+                       mean_position(before, points),
                        normal,
                        master,
-                       depth,
-                       -gap(before(slave), normal, before(master), points) / covered);
+                       -gap(slave, normal, master, points) / covered,
+                       -gap(before, normal, at_start_of_step(master), points) / covered);
   }
 
 
@@ -308,6 +299,7 @@ namespace Touchstone
   FacingFaces::find(const Face &slave)
   {
     const FaceExchange       &exchange = search.exchange();
+    const Tensor<1, dim>      normal   = evaluate(slave, nullptr, {{0., 0.}}).normal();
     std::vector<const Face *> near;
     // Known candidates are intersected anew, but not searched for.
     if (const auto known = candidates.find(slave.key); known != candidates.end())
@@ -315,10 +307,9 @@ namespace Touchstone
         for (const auto &[key, index] : known->second)
           if (const Face *face = exchange.face(key, index))
             near.push_back(face);
-        return cover(slave, evaluate(slave, nullptr, {{0., 0.}}).normal(), near);
+        return cover(slave, normal, near);
       }
-    const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
-    near                        = search.near(box(slave), normal);
+    near = search.near(box(slave), normal);
     // Integrals over the faces are summed in the order of keys, on any number of ranks.
     sort_by_key(near);
     const std::vector<FacingFace> all       = cover(slave, normal, near);

@@ -12,19 +12,10 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  double
-  reference_diagonal(const Face &face)
-  {
-    return face.reference[0].distance(face.reference[face.n_nodes() - 1]);
-  }
-
-
-
   FacePoint
   foot_at_start(const Point<dim> &start, const Face &face, const AnalyticSurface *exact)
   {
-    Face before         = face;
-    before.displacement = face.committed;
+    const Face         before = at_start_of_step(face);
     const FaceGeometry geometry(before, exact, MasterNormal::face);
     return geometry.evaluate(closest_point_projection(start, geometry).xi);
   }
@@ -40,19 +31,21 @@ namespace Touchstone
 
 
   bool
-  on_far_side(const FaceTree       &tree,
-              const Point<dim>     &start,
-              const Tensor<1, dim> &slave_normal,
-              const Face           &face,
-              const double          depth,
-              const double          depth_at_start)
+  on_far_side(const FaceTree             &tree,
+              const Point<dim>           &start,
+              const Tensor<1, dim>       &slave_normal,
+              const Face                 &face,
+              const double                depth,
+              const std::optional<double> depth_at_start)
   {
-    // What it has entered since the step began it has not been behind.
-    if (depth_at_start < 0.5 * depth)
+    if (!is_deep(tree, face, depth))
       return false;
-    const FacePoint foot   = foot_at_start(start, face, tree.exchange.exact_surface(face));
-    const double    radius = start.distance(foot.x);
-    FaceTree::Box   near({start, start});
+    const FacePoint foot = foot_at_start(start, face, tree.exchange.exact_surface(face));
+    // What it has entered since the step began it has not been behind.
+    if (depth_at_start.value_or((foot.x - start) * foot.normal()) < 0.5 * depth)
+      return false;
+    const double  radius = start.distance(foot.x);
+    FaceTree::Box near({start, start});
     near.extend(radius);
     std::vector<FacePoint> feet;
     double                 closest = std::numeric_limits<double>::max();

@@ -46,6 +46,15 @@ namespace Touchstone
              const Solid                           &solid,
              unsigned int                           body,
              const Vector                          &u);
+
+  /** @brief For each of some pairs of points of this rank, of the first and of the second body,
+   * whether each lies in the cells of the other body: the bodies overlap there, while at the two
+   * sides of a thin body they do not. Collective. @param u Displacement with ghosts. */
+  std::vector<bool>
+  lie_within_each_other(const std::vector<std::array<dealii::Point<dim>, 2>> &pairs,
+                        const Solid                                          &solid,
+                        const std::array<unsigned int, 2>                    &bodies,
+                        const Vector                                         &u);
 } // namespace Touchstone
 
 #endif

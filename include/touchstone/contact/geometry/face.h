@@ -145,6 +145,14 @@ namespace Touchstone
   /** @brief The same with the shape functions there. */
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes);
+
+  /** @brief The face in the position in which the step began. */
+  Face
+  at_start_of_step(const Face &face);
+
+  /** @brief Of the face as it is before any displacement, length. */
+  double
+  reference_diagonal(const Face &face);
 } // namespace Touchstone
 
 #endif

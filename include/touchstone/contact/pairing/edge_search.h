@@ -61,12 +61,6 @@ namespace Touchstone
     std::vector<FoundBetweenNodes>
     find(const Vector &u);
 
-    /** @brief For each of @p found whether the bodies overlap there: both points lie within the
-     * other body, as those of the two sides of a thin body do not. Collective.
-     * @param u Displacement with ghosts. */
-    std::vector<bool>
-    overlap(const std::vector<FoundBetweenNodes> &found, const Vector &u) const;
-
     /** @brief Of slave faces, see ContactBetweenNodes::face(). Collective. */
     std::unordered_map<const Face *, std::vector<NormalDerivative>>
     normal_derivatives(const std::vector<const Face *> &needed) const
@@ -83,9 +77,8 @@ namespace Touchstone
     }
 
   private:
-    const Solid       &solid;
-    const Surface     &slave;
-    const unsigned int slave_body, master_body;
+    const Solid   &solid;
+    const Surface &slave;
     /** Slave and master faces around the slave nodes of this rank. */
     FaceExchange slave_exchange, exchange;
     /** What hold() was told, by slave node, with ghosts. */

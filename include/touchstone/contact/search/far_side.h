@@ -5,41 +5,39 @@
 
 #include <touchstone/contact/search/face_tree.h>
 
+#include <optional>
+
 namespace Touchstone
 {
-  /** @brief Of a face as it is before any displacement, length. */
-  double
-  reference_diagonal(const Face &face);
-
   /** @brief The point of a face that was closest to @p start when the step began, and the normal of
    * the face there. */
   FacePoint
   foot_at_start(const dealii::Point<dim> &start, const Face &face, const AnalyticSurface *exact);
 
-  /** @brief Whether a face is deeper behind a slave point than bodies in balance fit within, so
-   * that on_far_side() has to be asked. False if steps are not committed. @param depth Length. */
+  /** @brief Whether a face is deeper behind a slave point than bodies in balance fit within, as all
+   * on_far_side() are. False if steps are not committed. @param depth Length. */
   bool
   is_deep(const FaceTree &tree, const Face &face, double depth);
 
   /**
-   * @brief Whether a face that is deep behind a slave point is on the far side of a thin body,
-   * which the point has neither entered nor overlaps (doc/theory.md 4, "Far sides").
+   * @brief Whether a face that is behind a slave point is on the far side of a thin body, which
+   * the point has neither entered nor overlaps (doc/theory.md 4, "Far sides").
    *
    * When the step began the point was as deep behind the face, and in front of those faces that
    * were closest to it, whatever their normals; and these look away from the face, or the slave
    * surface looks away from them.
    *
-   * @param start           Of the point, when the step began.
-   * @param slave_normal    Unit outward normal of the slave surface there.
-   * @param depth           Behind the face at present, length.
-   * @param depth_at_start  The same when the step began. */
+   * @param start          Of the point, when the step began; of an area its middle.
+   * @param slave_normal   Unit outward normal of the slave surface there.
+   * @param depth          Behind the face at present, length.
+   * @param depth_at_start The same when the step began, where it is not that of the point. */
   bool
   on_far_side(const FaceTree               &tree,
               const dealii::Point<dim>     &start,
               const dealii::Tensor<1, dim> &slave_normal,
               const Face                   &face,
               double                        depth,
-              double                        depth_at_start);
+              std::optional<double>         depth_at_start = {});
 } // namespace Touchstone
 
 #endif
