@@ -21,6 +21,12 @@ def material(rng, beside=1000.0):
     return strain, ({"Law": law, "Poisson ratio": f"{poisson:g}"}, moduli)
 
 
+def bearable(stuff):
+    """The stress at the strain up to which a body of this material is pressed."""
+    law, moduli = stuff
+    return STRAINS[law["Law"]] * moduli["Young modulus"]
+
+
 def behaviour(rng):
     """Frictionless, or a law and its coefficient."""
     kind = rng.random()

@@ -48,5 +48,5 @@ class Motion:
 
     def force(self, pressure):
         """Traction z instead of a displacement; what is lifted off keeps a tenth."""
-        text = f"{PRESSED} - 0.9 * max(0, t - 1)" if self.kind == "lift off" else PRESSED
+        text = f"{PRESSED} - 0.9 * {MOVED}" if self.kind == "lift off" else PRESSED
         return Formula(-pressure, text)

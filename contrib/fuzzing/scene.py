@@ -49,6 +49,12 @@ class Condition:
     displacement: tuple = (None, None, None)
     traction: tuple = (None, None, None)
 
+    def bounded(self, stress):
+        """With components of the traction of @p stress at most."""
+        return Condition(self.displacement, tuple(
+            f and Formula(math.copysign(min(abs(f.factor), stress), f.factor), f.text)
+            for f in self.traction))
+
     def keys(self):
         return {f"{kind} {a}": str(f) for kind, v in (("Displacement", self.displacement),
                                                       ("Traction", self.traction))

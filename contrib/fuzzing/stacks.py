@@ -5,7 +5,7 @@ import dataclasses
 import math
 
 from . import parts
-from .materials import behaviour, material, settings
+from .materials import STRAINS, bearable, behaviour, material, settings
 from .motions import KINDS, Motion
 from .round_geometry import Tube
 from .scene import Body, Condition, Formula, Obstacle, Pair, Scene
@@ -24,6 +24,14 @@ def _driven(rng, name, part, motion, stuff, by_force):
         condition = Condition((x, y, motion.down()))
     return Body(name, part.geometry, *stuff, conditions=tuple((b, condition)
                                                               for b in part.support))
+
+
+def _borne_by(body, *materials, share=1.0):
+    """@p body with a load that bodies of these materials bear, on @p share of its area: a soft one
+    under a stiff one would be pressed beyond what its law describes, or its balance."""
+    stress = share * min(map(bearable, materials))
+    return dataclasses.replace(body, conditions=tuple((b, c.bounded(stress))
+                                                      for b, c in body.conditions))
 
 
 def _ground(rng, name="ground"):
@@ -66,7 +74,8 @@ def two(rng):
         pair = _pair(rng, "contact", "top", top.contact, "ground", (), False)
     else:
         other = stuff if rng.random() < 0.5 else material(rng, stuff[1]["Young modulus"])[1]
-        bodies.insert(0, Body("low", low.geometry, *other, fixed=low.support))
+        bodies = [Body("low", low.geometry, *other, fixed=low.support),
+                  _borne_by(bodies[0], stuff, other)]
         pair = _pair(rng, "contact", "top", top.contact, "low", low.contact)
     return Scene("Two bodies, " + motion.kind, tuple(bodies), obstacles, (pair,),
                  motion.end_time, motion.end_time * rng.randint(2, 4),
@@ -87,8 +96,8 @@ def row(rng, numbers=(2, 2, 3)):
         motion = Motion(rng, KINDS, strain * part.height, 0.1,
                         ((i - (n - 1) / 2) * 1.2, 0.0))
         name = f"body{i + 1}"
-        bodies.append(_driven(rng, name, part, motion, own,
-                              part.flat_top and rng.random() < 0.4))
+        bodies.append(_borne_by(_driven(rng, name, part, motion, own,
+                                        part.flat_top and rng.random() < 0.4), own, stuff))
         pairs.append(_pair(rng, f"pair{i + 1}", name, part.contact, "base", ("top",)))
         end = max(end, motion.end_time)
     # Phases that a motion does not have it rests in: formulas of time say so.
@@ -107,20 +116,23 @@ def table(rng):
     h, low = rng.uniform(0.5, 1.0), rng.uniform(0.3, 0.8)
     base = parts.Box((-1.2, -0.7, -low), (1.2, 0.7, 0.0), (rng.randint(4, 7), 3, 2),
                      parts.grading(rng))
-    bodies = [Body("base", base, *stuff, fixed=("bottom",))]
+    bodies, legs, area = [Body("base", base, *stuff, fixed=("bottom",))], [], 0.0
     held, pairs = Condition((Formula(0.0), Formula(0.0), None)), []
     for name, side, x in (("left leg", "left", -1.0), ("right leg", "right", 0.4)):
         width = rng.uniform(0.4, 0.6)
         leg = parts.Box((x, -0.3, 0.0), (x + width, 0.3, h), parts.cells(rng, 2, 4),
                         parts.grading(rng))
-        bodies.append(Body(name, leg, *material(rng, stuff[1]["Young modulus"])[1],
-                           conditions=((side, held),)))
+        legs.append(material(rng, stuff[1]["Young modulus"])[1])
+        area += 0.6 * width
+        bodies.append(Body(name, leg, *legs[-1], conditions=((side, held),)))
         pairs.append(_pair(rng, f"foot of {name}", name, ("bottom",), "base", ("top",)))
     plate = parts.Box((-1.1, -0.5, h), (1.1, 0.5, h + 0.3), (rng.randint(4, 7), 3, 2))
+    strain = min([strain] + [STRAINS[leg[0]["Law"]] for leg in legs])
     motion = Motion(rng, KINDS, strain * (h + 0.3), 0.1)
     top = parts.Part(plate, ("bottom",), ("top",), h + 0.3, 0.5, False, True)
-    bodies.append(_driven(rng, "plate", top, motion, material(rng, stuff[1]["Young modulus"])[1],
-                          rng.random() < 0.4))
+    driven = _driven(rng, "plate", top, motion, material(rng, stuff[1]["Young modulus"])[1],
+                     rng.random() < 0.4)
+    bodies.append(_borne_by(driven, stuff, *legs, share=area / 2.2))
     for name in ("left leg", "right leg"):
         pairs.append(_pair(rng, f"head of {name}", name, ("top",), "plate", ("bottom",)))
     return Scene("A plate on two legs, " + motion.kind, tuple(bodies), (), tuple(pairs),
@@ -173,11 +185,12 @@ def quarter(rng):
     driven = _driven(rng, "top", top, motion, stuff, top.flat_top and rng.random() < 0.5)
     support = tuple((b, Condition((None, None) + c.displacement[2:], c.traction))
                     for b, c in driven.conditions)
-    driven = dataclasses.replace(driven, symmetry=planes, conditions=support)
     size = rng.uniform(0.8, 1.5)
     base = parts.Box((0.0, 0.0, -0.8), (size, size, 0.0), parts.cells(rng, 3, 5),
                      parts.grading(rng))
     other = material(rng, stuff[1]["Young modulus"])[1]
+    driven = _borne_by(dataclasses.replace(driven, symmetry=planes, conditions=support),
+                       stuff, other)
     low = Body("low", base, *other, symmetry=("left", "front", "bottom"))
     pair = _pair(rng, "contact", "top", top.contact, "low", ("top",))
     return Scene("Quarter of a " + kind, (low, driven), (), (pair,), motion.end_time,
