@@ -53,6 +53,11 @@ namespace Touchstone
   {
     set_point(master, x);
     set_normal(own, master);
+    if (beyond > Tolerances::on_edge && (reach.stays || !fits()))
+      {
+        set_point_over_end();
+        set_normal(own, master);
+      }
   }
 
 
@@ -65,8 +70,13 @@ namespace Touchstone
     free            = (at > 0. && at < 1.);
     beyond          = std::abs(at - along);
     distance        = x - master.a - along * edge;
-    if (beyond <= Tolerances::on_edge)
-      return;
+  }
+
+
+
+  void
+  EdgeOnEdge::set_point_over_end()
+  {
     // The end of the master edge touches the slave edge between its nodes. Where it is close to the
     // other node, the row of that is enough.
     const double foot = 1. - distance * slave_edge / slave_edge.norm_square();
@@ -123,11 +133,28 @@ namespace Touchstone
                        to   = angles[most(0)] < angles[most(2)] ? most(0) : most(2);
     // What fits is contact of faces, which rows of nodes describe: the cones just meet. One that
     // lies within the other may be as narrow as it is, of an edge that has been pressed flat.
-    const double common = angles[to] - angles[from];
-    if (common < 0. || (common < Tolerances::edges_touch && (from < 2) != (to < 2)))
+    const double common   = angles[to] - angles[from];
+    const bool   parallel = touch || fits(), different = (from < 2) != (to < 2);
+    if (common < 0. || (common < Tolerances::edges_touch && different))
       touch = false;
-    sides  = {{all[from], all[to]}};
-    normal = all[from].normal + all[to].normal;
+    sides   = {{all[from], all[to]}};
+    outward = Tensor<1, dim>();
+    if (parallel && different && std::abs(common) < Tolerances::edges_touch)
+      {
+        const unsigned int of_master = std::min(from, to), of_slave = std::max(from, to);
+        const Side        &side =
+          all[reach.beyond_edge == BeyondEdge::along_slave_normal ? of_slave : of_master];
+        sides   = {{side, side}};
+        outward = all[1 - of_master].normal;
+        outward -= (outward * side.normal) * side.normal;
+        outward /= outward.norm();
+        const Face &face = *all[of_master].face;
+        Point<dim>  centre;
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          centre += face.position(m) / face.n_nodes();
+        width = 2. * std::abs((centre - master.a) * outward);
+      }
+    normal = sides[0].normal + sides[1].normal;
     normal /= normal.norm();
   }
 

@@ -72,20 +72,46 @@ namespace Touchstone
 
 
 
+  // With the direction from the edge to the node for its normal the force would leave the cone of
+  // the slave's normals, and its direction would be what the last digits of the position say.
   bool
-  EdgeOnEdge::holds(const Point<dim> &start, const bool swept) const
+  EdgeOnEdge::holds_beyond(const SlavePoint &point) const
+  {
+    if (reach.beyond_edge == BeyondEdge::free || !fits() || over_end)
+      return false;
+    const double         touches  = Tolerances::touches_at_start * reach.size;
+    const Tensor<1, dim> at_start = distance_at_start(point.start);
+    const bool           was_on   = at_start * outward <= touches;
+    // What comes along the other face of the edge, with a clearance, is not held by it.
+    if (!reach.touched && !was_on)
+      return false;
+    const bool   stays = reach.touched || (was_on && std::abs(at_start * normal) <= touches);
+    const double tolerance =
+      (stays ? Tolerances::edge_hysteresis : 1.) * reach.edge_tolerance;
+    const double aside = distance * outward;
+    // A node that sticks on the edge must not go from face to edge and back by round-off.
+    return beyond <= tolerance && aside > -Tolerances::in_wedge * width &&
+           aside <= tolerance * width &&
+           std::abs(distance * normal) <= Tolerances::onto_edge * reach.size;
+  }
+
+
+
+  bool
+  EdgeOnEdge::holds(const SlavePoint &point, const bool swept) const
   {
     const double gap = distance * normal;
     // Beside the edge it is a face that is touched. An iterate may carry the node deep into the
     // body, where the face that is closest would be decided by how it got there.
-    if (!reach.stays && (!touch || beyond > reach.edge_tolerance ||
+    if (!reach.stays && !holds_beyond(point) &&
+        (!touch || beyond > reach.edge_tolerance ||
                          std::abs(gap) > Tolerances::onto_edge * reach.size ||
                          beside() > Tolerances::touching * reach.size +
                                       Tolerances::beside_edge * std::max(0., -gap)))
       return false;
     // What was behind the edge before is the other side of a thin body, or an initial overlap.
     return !swept || gap >= 0. || reach.overlaps ||
-           distance_at_start(start) * normal > -Tolerances::deep_edge * reach.size;
+           distance_at_start(point.start) * normal > -Tolerances::deep_edge * reach.size;
   }
 
 
@@ -140,7 +166,7 @@ namespace Touchstone
         for (const SharpEdge &edge : own)
           {
             const EdgeOnEdge found(edge, master, node, point.x, reach);
-            if (!found.holds(point.start, search.exchange().swept()))
+            if (!found.holds(point, search.exchange().swept()))
               continue;
             const int better = result ? found.better_than(*result, point.start) : 1;
             if (better > 0 || (better == 0 && master.key < key))

@@ -38,7 +38,7 @@ namespace Touchstone
           numbers[input.slave->owned_nodes()[k].node] = k;
         // Pointwise rows have the direction of edges already.
         if (input.parameters->pairing.name != "pointwise")
-          on_edges.emplace(input);
+          on_edges.emplace(input, of_nodes->beyond_edge());
       }
 
       unsigned int

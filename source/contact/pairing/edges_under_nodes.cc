@@ -24,6 +24,7 @@ namespace Touchstone
     , edges(slave.owned_nodes().size())
     , stood(edges.size(), false)
     , has_left(edges.size(), false)
+    , touched(edges.size(), false)
     , overlaps(edges.size(), input.slave_body != input.master_body)
   {
   }
@@ -34,14 +35,19 @@ namespace Touchstone
   EdgesUnderNodes::find(const std::size_t k,
                         const Search     &search,
                         const SlavePoint &point,
-                        const double      size)
+                        const double      size,
+                        const BeyondEdge  beyond_edge)
   {
-    edges[k] = EdgeOnEdge::find(
-      slave,
-      search,
-      point,
-      slave.owned_nodes()[k].node,
-      {size, input.parameters->edge_tolerance, stood[k] && !has_left[k], overlaps[k]});
+    if (first_of_step)
+      touched[k] = point.in_contact;
+    EdgeOnEdge::Reach reach;
+    reach.size           = size;
+    reach.edge_tolerance = input.parameters->edge_tolerance;
+    reach.stays          = stood[k] && !has_left[k];
+    reach.overlaps       = overlaps[k];
+    reach.beyond_edge    = beyond_edge;
+    reach.touched        = touched[k];
+    edges[k] = EdgeOnEdge::find(slave, search, point, slave.owned_nodes()[k].node, reach);
     return edges[k].has_value();
   }
 
@@ -50,6 +56,7 @@ namespace Touchstone
   bool
   EdgesUnderNodes::end_update(const Vector &u)
   {
+    first_of_step = false;
     // The first step begins with the bodies as they are placed.
     if (started)
       return false;
@@ -96,6 +103,7 @@ namespace Touchstone
   EdgesUnderNodes::begin_step()
   {
     has_left.assign(edges.size(), false);
+    first_of_step = true;
   }
 
 

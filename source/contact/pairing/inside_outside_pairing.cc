@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/pairing/end_of_surface.h>
 #include <touchstone/contact/pairing/normal_search.h>
+#include <touchstone/contact/pairing/pointwise_row.h>
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/pairing/slave_direction.h>
 #include <touchstone/contact/tolerances.h>
@@ -36,6 +37,7 @@ namespace Touchstone
         : Pairing(input)
         , search(input)
         , met(input.slave->owned_nodes().size())
+        , closest(met.size())
         , guesses(met.size(), 0)
       {
         search.commit(nullptr);
@@ -63,6 +65,12 @@ namespace Touchstone
       void
       differentiate(const Vector &u, double, std::vector<ContactRow> &rows) override;
 
+      BeyondEdge
+      beyond_edge() const override
+      {
+        return BeyondEdge::along_slave_normal;
+      }
+
       SearchWork
       search_work() const override
       {
@@ -74,6 +82,8 @@ namespace Touchstone
       EndOfSurface end;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<MetFace>> met;
+      /** For nodes that meet nothing. */
+      std::vector<std::optional<ContactPartner>> closest;
       /** Faces at which the search begins, indices in those of the search. */
       std::vector<std::size_t> guesses;
       /** Positions of the slave nodes at the start of the step. */
@@ -81,6 +91,8 @@ namespace Touchstone
 
       std::optional<MetFace>
       meet(std::size_t k, const Point<dim> &x, const ContactRow &row, bool stays_at_end);
+      std::optional<ContactPartner>
+      find_closest(std::size_t k, const Point<dim> &x, const ContactRow &row) const;
       void
       differentiate(const MetFace                       &one,
                     Index                                slave,
@@ -112,10 +124,15 @@ namespace Touchstone
             found.push_back({*one, direction, -1. * (direction.n * one->at.point.normal())});
             nearest = std::min(nearest, std::abs(one->at.along));
           }
+      // A node that lies on the surface sees the opposite side of the body from within, where it
+      // looks along a face; what is deep in a body is far from all of its surface.
+      const double near = 0.5 * row.size;
+      if (nearest > near && nearest < std::numeric_limits<double>::max())
+        nearest = std::min(nearest, search.least_distance(x));
       std::optional<MetFace> best;
       for (const MetFace &one : found)
         if (const double distance = std::abs(one.facing.at.along);
-            distance <= 2. * nearest + 0.5 * row.size)
+            distance <= 2. * nearest + near)
           {
             const double more = best ? one.opposed - best->opposed : 1.;
             if (more > Tolerances::touching ||
@@ -125,6 +142,28 @@ namespace Touchstone
       if (best)
         guess = search.faces().exchange().index(*best->facing.face);
       return best;
+    }
+
+
+
+    // The normal of a node on an edge tilts as its face bends, and beside the end of the master the
+    // line along it may lead past the surface in front of which, or behind which, the node is.
+    // Where they touch both are one point.
+    std::optional<ContactPartner>
+    InsideOutsidePairing::find_closest(const std::size_t k,
+                                       const Point<dim> &x,
+                                       const ContactRow &row) const
+    {
+      SlavePoint point;
+      point.x            = x;
+      point.start        = start[k];
+      point.normal       = input.slave->normal(row.slave);
+      point.in_contact   = row.was_active;
+      point.stays_at_end = end.stays(k, row);
+      auto result        = search.faces().find(point);
+      if (result && result->wedge != 0)
+        result.reset();
+      return result;
     }
 
 
@@ -148,10 +187,20 @@ namespace Touchstone
           row.has_partner = met[k].has_value();
           row.gap         = 0.;
           row.away        = 0.;
+          closest[k].reset();
           if (!met[k])
             {
-              end.left(k, row);
               row.away = search.least_distance(positions[k]);
+              if (row.away < row.size)
+                closest[k] = find_closest(k, positions[k], row);
+              if (closest[k])
+                {
+                  row.has_partner = true;
+                  row.away        = 0.;
+                  set_pointwise_row(*closest[k], positions[k], row);
+                }
+              else
+                end.left(k, row);
               continue;
             }
           const FacingPoint &one = met[k]->facing;
@@ -168,20 +217,29 @@ namespace Touchstone
 
 
     void
-    InsideOutsidePairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
+    InsideOutsidePairing::differentiate(const Vector &u,
+                                        const double,
+                                        std::vector<ContactRow> &rows)
     {
       // Of all geometries only smooth patches depend on normals of the master.
       std::vector<const Face *> needed;
       const bool                smooth = search.faces().exchange().smoothed();
-      for (std::size_t k = 0; smooth && k < met.size(); ++k)
-        if (rows[k].was_active && met[k])
+      for (std::size_t k = 0; k < met.size(); ++k)
+        if (rows[k].was_active && met[k] && smooth)
           needed.push_back(met[k]->facing.face);
-      std::unordered_map<const Face *, std::vector<NormalDerivative>> of_patches;
-      if (smooth) // on all ranks alike: collective
-        of_patches = search.faces().normal_derivatives(needed);
+        else if (rows[k].was_active && closest[k])
+          add_faces(*closest[k], needed);
+      // Collective.
+      const auto of_patches = search.faces().normal_derivatives(needed);
       for (std::size_t k = 0; k < met.size(); ++k)
         {
           rows[k].derivative.reset();
+          if (rows[k].was_active && closest[k])
+            differentiate_pointwise_row(search.faces(),
+                                        of_patches,
+                                        *closest[k],
+                                        input.slave->position(input.slave->owned_nodes()[k], u),
+                                        rows[k]);
           if (!rows[k].was_active || !met[k])
             continue;
           const auto of_patch = of_patches.find(met[k]->facing.face);

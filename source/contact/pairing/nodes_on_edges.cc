@@ -9,13 +9,14 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  NodesOnEdges::NodesOnEdges(const PairingInput &input)
+  NodesOnEdges::NodesOnEdges(const PairingInput &input, const BeyondEdge beyond_edge)
     : input(input)
     , search(*input.master,
              2. * std::max(input.slave->largest_face(), input.master->largest_face()),
              input.parameters->edge_tolerance,
              MasterNormal::face,
              input.solid->communicator)
+    , beyond_edge(beyond_edge)
     , edges(input)
   {
     search.commit(nullptr);
@@ -57,9 +58,10 @@ namespace Touchstone
         const std::size_t k   = on_edges[i];
         ContactRow       &row = rows[k];
         SlavePoint        point;
-        point.x     = positions[i];
-        point.start = start[k];
-        if (!edges.find(k, search, point, row.size))
+        point.x          = positions[i];
+        point.start      = start[k];
+        point.in_contact = row.was_active;
+        if (!edges.find(k, search, point, row.size, beyond_edge))
           continue;
         row.has_partner = true;
         row.stencil.clear();

@@ -178,7 +178,7 @@ namespace Touchstone
           row.share = 1.;
           row.lever = Tensor<1, dim>();
           row.area  = nodes[k].area;
-          if (edges.find(k, search, point, row.size))
+          if (edges.find(k, search, point, row.size, BeyondEdge::along_master_normal))
             {
               // Which of the faces beside the edge comes after it is not known.
               partners[k].reset();

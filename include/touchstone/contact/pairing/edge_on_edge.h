@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/pairing/beyond_edge.h>
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
@@ -40,7 +41,7 @@ namespace Touchstone
     static bool
     at_sharp_edge(const Surface &slave, Index node);
 
-    /** @brief How far from an edge a node may be. */
+    /** @brief How far from an edge a node may be, and what holds it. */
     struct Reach
     {
       /** Of the faces of the node, length. */
@@ -52,6 +53,12 @@ namespace Touchstone
       /** The bodies overlap at the edge as the run begins: what is behind it is not the other side
        * of a thin body. */
       bool overlaps = false;
+      /** Where faces fit beside both edges, a node that was on the face when the step began is held
+       * beyond its edge, too, as at the end of a surface: along the normal that its row has on the
+       * face. */
+      BeyondEdge beyond_edge = BeyondEdge::free;
+      /** The node was in contact when the step began. */
+      bool touched = false;
     };
 
     /** @brief The edge that a slave node stands on or is about to, in the last update of the
@@ -146,7 +153,11 @@ namespace Touchstone
     /** From the point of the master edge to that of the slave edge. */
     dealii::Tensor<1, dim> distance;
     /** The edges are parallel and touch each other, and no face. */
-    bool                   touch = true;
+    bool touch = true;
+    /** They are parallel, and a face beside each fits on one beside the other: the direction from
+     * the former to its edge, else zero, and how wide the face of the master is in it. */
+    dealii::Tensor<1, dim> outward;
+    double                 width = 0.;
     dealii::Tensor<1, dim> normal;
     std::array<Side, 2>    sides;
     Reach                  reach;
@@ -156,9 +167,17 @@ namespace Touchstone
                Index                     node,
                const dealii::Point<dim> &x,
                const Reach              &reach);
-    /** Set the point of contact. @param x Of the node. */
+    /** Set the point of contact on the master edge. @param x Of the node. */
     void
     set_point(const SharpEdge &master, const dealii::Point<dim> &x);
+    /** Where that is an end of the edge, move it along the slave edge to there. */
+    void
+    set_point_over_end();
+    bool
+    fits() const
+    {
+      return outward.norm_square() > 0.;
+    }
     /** Set the normal. */
     void
     set_normal(const SharpEdge &own, const SharpEdge &master);
@@ -168,10 +187,13 @@ namespace Touchstone
     /** Distance from the line of the edge across the normal, length. */
     double
     beside() const;
+    /** Whether the node is just beyond the edge of the face that its own one fits on. */
+    bool
+    holds_beyond(const SlavePoint &point) const;
     /** Whether the node can have the row: it lies on the line of the edge but for tolerances, along
      * the normal in front of it or where it has come to since the step began, or stays there. */
     bool
-    holds(const dealii::Point<dim> &start, bool swept) const;
+    holds(const SlavePoint &point, bool swept) const;
     /** Whether it is a better choice than another one, apart from keys of the edges: 1, else -1, or
      * 0 if both are as good. */
     int

@@ -28,9 +28,14 @@ namespace Touchstone
 
     /** @brief Look for the edge under a node in the present update of the search.
      * @param k    Number of the node among the owned slave nodes.
-     * @param size Of its faces, length. @return Whether there is one. */
+     * @param size Of its faces, length.
+     * @param beyond_edge What holds it on an edge of faces that it fits on. @return Whether there is one. */
     bool
-    find(std::size_t k, const Search &search, const SlavePoint &point, double size);
+    find(std::size_t       k,
+         const Search     &search,
+         const SlavePoint &point,
+         double            size,
+         BeyondEdge        beyond_edge);
 
     /** @brief The node @p k stands on none in this update. */
     void
@@ -96,6 +101,9 @@ namespace Touchstone
     std::vector<std::optional<EdgeOnEdge>> edges;
     /** Nodes that stood on an edge when the step began, and those that have left it since. */
     std::vector<bool> stood, has_left;
+    /** Nodes that were in contact when the step began, which the first update of the step tells. */
+    std::vector<bool> touched;
+    bool              first_of_step = true;
     /** Nodes that may lie deep behind an edge since the bodies overlap as the run begins; within
      * the first update all that have not been found to lie elsewhere. */
     std::vector<bool> overlaps;

@@ -18,8 +18,8 @@ namespace Touchstone
   class NodesOnEdges
   {
   public:
-    /** @brief Collective. */
-    explicit NodesOnEdges(const PairingInput &input);
+    /** @brief Collective. @param beyond_edge What holds nodes on edges of faces that they fit on. */
+    NodesOnEdges(const PairingInput &input, BeyondEdge beyond_edge);
 
     /** @brief A step ends with the displacement @p u, with ghosts. */
     void
@@ -77,6 +77,7 @@ namespace Touchstone
   private:
     const PairingInput input;
     Search             search;
+    const BeyondEdge   beyond_edge;
     /** Positions of the slave nodes at the start of the step. */
     std::vector<dealii::Point<dim>> start;
     /** What the nodes stand on since the last update. */

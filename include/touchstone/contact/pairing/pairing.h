@@ -6,6 +6,7 @@
 #include <touchstone/base/registry.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/pairing/beyond_edge.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
 #include <touchstone/mesh/obstacle_parameters.h>
@@ -88,6 +89,13 @@ namespace Touchstone
     keeps_nodes_out() const
     {
       return true;
+    }
+
+    /** @brief What holds a node that its row loses over an edge of the master. */
+    virtual BeyondEdge
+    beyond_edge() const
+    {
+      return BeyondEdge::free;
     }
 
     /**
