@@ -60,6 +60,18 @@ namespace
                slave_and_master("upper", "bottom, left", "lower", "top, right") +
                  "\nset Pairing = pointwise");
 
+  // Two blocks whose sides are flush: half of the nodes on edges come to lie beyond them.
+  const std::string flush = two_bodies("lower",
+                                       "set Cells = 3, 4, 2",
+                                       "upper",
+                                       "set Lower corner = 0, 0, 1\n"
+                                       "set Upper corner = 1, 1, 2\n"
+                                       "set Cells        = 2, 5, 3",
+                                       slave_and_master("upper",
+                                                        "bottom, left, right, front, back",
+                                                        "lower",
+                                                        "top, left, right, front, back"));
+
   // A ring with a slit: its ends meet, with slaves on one side alone.
   const std::string slit =
     "set Bodies = ring\nset Contact pairs = pair\n" +
@@ -337,6 +349,13 @@ main(int argc, char **argv)
         {"Body upper/Geometry/Upper corner=2, 1.15, 2"},
         0.,
         5e-5);
+  for (const std::string kind : {"face", "averaged", "smoothed"})
+    check("flush edges, " + kind,
+          flush,
+          {set("Pairing", "pointwise"), set("Master normal", kind)},
+          0.,
+          0.002);
+  check("flush edges, inside-outside", flush, {set("Pairing", "inside-outside")}, 0., 0.002);
   // Normals on planes of symmetry are those of the whole body.
   for (const std::string pairing : {"pointwise", "averaged", "inside-outside"})
     for (const std::string kind : {"averaged", "smoothed"})

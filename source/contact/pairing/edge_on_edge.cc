@@ -139,7 +139,8 @@ namespace Touchstone
       touch = false;
     sides   = {{all[from], all[to]}};
     outward = Tensor<1, dim>();
-    if (parallel && different && std::abs(common) < Tolerances::edges_touch)
+    if (reach.beyond_edge != BeyondEdge::free && !reach.stays && parallel && different &&
+        std::abs(common) < Tolerances::edges_touch)
       {
         const unsigned int of_master = std::min(from, to), of_slave = std::max(from, to);
         const Side        &side =

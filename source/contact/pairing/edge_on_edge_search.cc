@@ -85,10 +85,9 @@ namespace Touchstone
     // What comes along the other face of the edge, with a clearance, is not held by it.
     if (!reach.touched && !was_on)
       return false;
-    const bool   stays = reach.touched || (was_on && std::abs(at_start * normal) <= touches);
-    const double tolerance =
-      (stays ? Tolerances::edge_hysteresis : 1.) * reach.edge_tolerance;
-    const double aside = distance * outward;
+    const bool   stays     = reach.touched || (was_on && std::abs(at_start * normal) <= touches);
+    const double tolerance = (stays ? Tolerances::edge_hysteresis : 1.) * reach.edge_tolerance;
+    const double aside     = distance * outward;
     // A node that sticks on the edge must not go from face to edge and back by round-off.
     return beyond <= tolerance && aside > -Tolerances::in_wedge * width &&
            aside <= tolerance * width &&
@@ -105,9 +104,9 @@ namespace Touchstone
     // body, where the face that is closest would be decided by how it got there.
     if (!reach.stays && !holds_beyond(point) &&
         (!touch || beyond > reach.edge_tolerance ||
-                         std::abs(gap) > Tolerances::onto_edge * reach.size ||
-                         beside() > Tolerances::touching * reach.size +
-                                      Tolerances::beside_edge * std::max(0., -gap)))
+         std::abs(gap) > Tolerances::onto_edge * reach.size ||
+         beside() >
+           Tolerances::touching * reach.size + Tolerances::beside_edge * std::max(0., -gap)))
       return false;
     // What was behind the edge before is the other side of a thin body, or an initial overlap.
     return !swept || gap >= 0. || reach.overlaps ||

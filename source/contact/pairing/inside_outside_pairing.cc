@@ -131,8 +131,7 @@ namespace Touchstone
         nearest = std::min(nearest, search.least_distance(x));
       std::optional<MetFace> best;
       for (const MetFace &one : found)
-        if (const double distance = std::abs(one.facing.at.along);
-            distance <= 2. * nearest + near)
+        if (const double distance = std::abs(one.facing.at.along); distance <= 2. * nearest + near)
           {
             const double more = best ? one.opposed - best->opposed : 1.;
             if (more > Tolerances::touching ||
