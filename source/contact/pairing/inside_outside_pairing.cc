@@ -126,9 +126,11 @@ namespace Touchstone
           }
       // A node that lies on the surface sees the opposite side of the body from within, where it
       // looks along a face; what is deep in a body is far from all of its surface.
-      const double near = 0.5 * row.size;
-      if (nearest > near && nearest < std::numeric_limits<double>::max())
-        nearest = std::min(nearest, search.least_distance(x));
+      const double near      = 0.5 * row.size;
+      const auto   is_behind = [near](const MetFace &one) { return one.facing.at.along < -near; };
+      if (std::any_of(found.begin(), found.end(), is_behind))
+        if (const auto other = find_closest(k, x, row))
+          nearest = std::min(nearest, x.distance(other->x));
       std::optional<MetFace> best;
       for (const MetFace &one : found)
         if (const double distance = std::abs(one.facing.at.along); distance <= 2. * nearest + near)
@@ -159,10 +161,7 @@ namespace Touchstone
       point.normal       = input.slave->normal(row.slave);
       point.in_contact   = row.was_active;
       point.stays_at_end = end.stays(k, row);
-      auto result        = search.faces().find(point);
-      if (result && result->wedge != 0)
-        result.reset();
-      return result;
+      return search.faces().find(point);
     }
 
 
@@ -192,6 +191,9 @@ namespace Touchstone
               row.away = search.least_distance(positions[k]);
               if (row.away < row.size)
                 closest[k] = find_closest(k, positions[k], row);
+              // Over a sharp edge it is not the direction to the edge.
+              if (closest[k] && closest[k]->wedge != 0)
+                closest[k].reset();
               if (closest[k])
                 {
                   row.has_partner = true;

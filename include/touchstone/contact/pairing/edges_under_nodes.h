@@ -29,7 +29,8 @@ namespace Touchstone
     /** @brief Look for the edge under a node in the present update of the search.
      * @param k    Number of the node among the owned slave nodes.
      * @param size Of its faces, length.
-     * @param beyond_edge What holds it on an edge of faces that it fits on. @return Whether there is one. */
+     * @param beyond_edge What holds it on an edge of faces that it fits on. @return Whether there
+     * is one. */
     bool
     find(std::size_t       k,
          const Search     &search,

@@ -18,7 +18,8 @@ namespace Touchstone
   class NodesOnEdges
   {
   public:
-    /** @brief Collective. @param beyond_edge What holds nodes on edges of faces that they fit on. */
+    /** @brief Collective. @param beyond_edge What holds nodes on edges of faces that they fit on.
+     */
     NodesOnEdges(const PairingInput &input, BeyondEdge beyond_edge);
 
     /** @brief A step ends with the displacement @p u, with ghosts. */
