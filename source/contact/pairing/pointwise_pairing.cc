@@ -203,8 +203,20 @@ namespace Touchstone
               row.away = self ? 0. : search.distance();
               continue;
             }
-          row.has_partner = true;
+          row.has_partner             = true;
+          const Tensor<1, dim> before = row.normal;
           set_pointwise_row(*partner, positions[k], row);
+          // A node in contact that has come over a sharp edge and is in front of the face beyond it
+          // has left: its row is not to close the gap there first.
+          if (row.was_active && row.gap > Tolerances::touching * row.size &&
+              row.normal * before < Tolerances::sharp_edge_cosine)
+            {
+              partners[k].reset();
+              row.has_partner = false;
+              row.away        = row.gap;
+              row.gap         = 0.;
+              row.stencil.clear();
+            }
         }
       if (edges.end_update(u))
         return update(u, time, rows);

@@ -26,6 +26,27 @@ namespace Touchstone
 
 
 
+    /** Whether a point @p x whose closest point on a face lies on a sharp edge of it is in front of
+     * the face beyond the edge. That one turns its back to the slave, or it would be closer: the
+     * point is outside of the body there, and not behind the first face. */
+    bool
+    is_before_other_face(const FaceGeometry          &face,
+                         const std::array<double, 2> &xi,
+                         const Point<dim>            &foot,
+                         const Point<dim>            &x)
+    {
+      Tensor<1, dim> edge;
+      if (!face.sharp(xi, edge))
+        return false;
+      edge /= edge.norm();
+      const Tensor<1, dim> n = face.normal(xi), direction = x - foot;
+      const Tensor<1, dim> other = 2. * (edge * n) * edge - n;
+      // Over a convex edge.
+      return direction * other > 0. && (direction - (direction * n) * n) * other > 0.;
+    }
+
+
+
     /** Collects projections of a node on faces and keeps the closest one, and that on the face with
      * which the node is in contact. */
     class ClosestFace
@@ -327,8 +348,12 @@ namespace Touchstone
     last_distance = found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
     std::optional<ContactPartner> result;
     if (on_surface(found))
+      result = partner(point, found);
+    if (result && result->wedge < 0 &&
+        is_before_other_face(received.geometry(*result->face), result->xi, result->x, point.x))
+      result.reset();
+    if (result)
       {
-        result = partner(point, found);
         for (const FaceProjection &equal : faces.equal)
           if (const ContactPartner other = partner(point, equal);
               on_surface(equal) && result->wedge == 0 && other.wedge == 0 &&
