@@ -93,14 +93,6 @@ namespace Touchstone
 
 
 
-    Box
-    box_of(const BodyCell &cell)
-    {
-      return Box(std::vector<Point<dim>>(cell.corners.begin(), cell.corners.end()));
-    }
-
-
-
     /** What this rank's cells have of the surfaces: nodes, and centres of faces, for all nodes of a
      * strip that is one face wide may lie on the sides of what it reaches into. */
     std::vector<PointOfBody>
@@ -173,7 +165,7 @@ namespace Touchstone
         return own;
       std::vector<Box> boxes, at_points;
       for_each_cell(contact, u, bodies, [&](const BodyCell &cell) {
-        boxes.push_back(box_of(cell));
+        boxes.push_back(box_of_cell(cell.corners));
       });
       for (const PointOfBody &point : own)
         at_points.push_back(Box({point.x, point.x}));
@@ -205,8 +197,9 @@ namespace Touchstone
       const auto               tree = pack_rtree(places);
       std::vector<BodyOverlap> result;
       for_each_cell(contact, u, bodies, [&](const BodyCell &cell) {
-        for (const auto &entry : tree | boost::geometry::index::adaptors::queried(
-                                          boost::geometry::index::intersects(box_of(cell))))
+        for (const auto &entry :
+             tree | boost::geometry::index::adaptors::queried(
+                      boost::geometry::index::intersects(box_of_cell(cell.corners))))
           {
             const PointOfBody &point = points[entry.second];
             if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||

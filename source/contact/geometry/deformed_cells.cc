@@ -85,6 +85,17 @@ namespace Touchstone
 
 
 
+  BoundingBox<dim>
+  box_of_cell(const std::array<Point<dim>, 8> &vertices)
+  {
+    BoundingBox<dim> box(std::vector<Point<dim>>(vertices.begin(), vertices.end()));
+    const auto      &ends = box.get_boundary_points();
+    box.extend(Tolerances::face_coordinate * ends.first.distance(ends.second));
+    return box;
+  }
+
+
+
   DeformedCells::DeformedCells(const Solid &solid, const unsigned int body, const Vector &u)
   {
     std::vector<std::pair<Box, std::size_t>> boxes;
@@ -92,8 +103,7 @@ namespace Touchstone
       if (cell->is_locally_owned() && cell->material_id() == body)
         {
           const std::array<Point<dim>, 8> corners = deformed_vertices(cell, u);
-          boxes.emplace_back(Box(std::vector<Point<dim>>(corners.begin(), corners.end())),
-                             cells.size());
+          boxes.emplace_back(box_of_cell(corners), cells.size());
           cells.push_back(corners);
         }
     // Only cells whose bounding box has the point are tested in contain().

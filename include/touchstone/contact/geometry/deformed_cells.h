@@ -17,6 +17,11 @@ namespace Touchstone
   std::array<dealii::Point<dim>, 8>
   deformed_vertices(const dealii::DoFHandler<dim>::active_cell_iterator &cell, const Vector &u);
 
+  /** @brief The bounding box of a cell with these vertices, larger by what a point on a plane of
+   * symmetry may lie outside of it by round-off. */
+  dealii::BoundingBox<dim>
+  box_of_cell(const std::array<dealii::Point<dim>, 8> &vertices);
+
   /** @brief The cells of one body on this rank, with straight edges, to ask whether points
    * lie in the body. */
   class DeformedCells
