@@ -65,6 +65,7 @@ goes_on("implicit-first", scene, settings, signal.SIGTERM, whole, step=1)
 
 # A first step that does not converge goes on with other settings, too.
 few = {**settings, "Checkpoints/Steps between": 5, "Newton/Maximum iterations": 1, "Load stepping/Maximum cuts": 0}
+shutil.rmtree(folder / "failed-first", ignore_errors=True)  # checkpoints of an earlier time
 failed = launch("--output", "failed-first", *settings_options(few), scene)
 check(failed.returncode == 2, f"failed-first: exit code {failed.returncode}")
 done = launch("--resume", "--output", "failed-first", *settings_options(settings), scene)
