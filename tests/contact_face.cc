@@ -122,10 +122,14 @@ namespace
     double       size  = 1e300;
     for (unsigned int a = 0; a < 2; ++a)
       size = std::min(size, 2. * evaluate(face, exact, {{0., 0.}}).tangents[a].norm());
-    // Above, below, and beyond the edges of the face.
+    // Above, below, and beyond the edges of the face. Farther from an exact surface than its radius
+    // steps without its curvature diverge.
+    const std::vector<double> heights =
+      exact ? std::vector<double>{-0.4, -0.01, 0., 0.05, 0.5, 2.3, 3.5}
+            : std::vector<double>{-0.4, -0.01, 0., 0.05, 0.5};
     for (const double a : {-1.3, -0.9, -0.4, 0., 0.55, 1., 1.2})
       for (const double b : {-1.25, -1., -0.3, 0.15, 0.7, 1.4})
-        for (const double height : {-0.4, -0.01, 0., 0.05, 0.5})
+        for (const double height : heights)
           {
             const FacePoint  point = evaluate(face, nullptr, {{a, b}});
             const Point<dim> x     = point.x + height * size * point.normal();

@@ -19,6 +19,11 @@ namespace Touchstone
     /** Limit of Newton steps. 50 are many more than any face has needed. */
     constexpr unsigned int max_steps = 50;
 
+    /** Beside an exact surface of radius R the distance d of the point decides how fast steps
+     * without curvature converge, like (d/R)^n, or that they do not. Near it, as in contact, these
+     * are enough; the derivatives are costly. */
+    constexpr unsigned int steps_without_curvature = 5;
+
     /** Projected Newton method for the closest point on a face, in xi: half the squared distance
      * has the gradient -t_a . r and the Hessian t_a . t_b - r . x,ab, with r = x - x(xi). A step
      * solves Hessian * step = t . r for the coordinates that are not held at a bound. */
@@ -42,6 +47,8 @@ namespace Touchstone
       {
         for (unsigned int iteration = 0; iteration < max_steps; ++iteration)
           {
+            curved = geometry.smooth() ||
+                     (geometry.exact_surface() && iteration >= steps_without_curvature);
             double step[2] = {0., 0.};
             if (!newton_step(step))
               return false;
@@ -66,6 +73,7 @@ namespace Touchstone
       std::array<double, 2> xi;
       FacePoint             point;
       Tensor<1, dim>        r; // x - point
+      bool                  curved = false;
 
       /** The Hessian t_a . t_b - r . x,ab, as far as it stays positive definite. Without the
        * curvature of a patch and the twist of a warped face convergence would be linear. */
@@ -91,17 +99,17 @@ namespace Touchstone
         for (unsigned int j = 0; j < 2; ++j)
           a[i][j] = point.tangents[i] * point.tangents[j];
       Tensor<1, dim> twist;
-      if (geometry.smooth())
+      if (curved)
         {
           const auto second = geometry.second_derivatives(xi);
           twist             = second[1];
           for (unsigned int i = 0; i < 2; ++i)
             {
-              const double curved = a[i][i] - r * second[2 * i];
+              const double entry = a[i][i] - r * second[2 * i];
               // Beyond a centre of curvature the Hessian is not positive definite and a Newton step
               // would go to a maximum of the distance: there the Gauss-Newton term t_a . t_a stays.
-              if (curved > 0.1 * a[i][i])
-                a[i][i] = curved;
+              if (entry > 0.1 * a[i][i])
+                a[i][i] = entry;
             }
         }
       else if (face.degree == 1)

@@ -121,8 +121,8 @@ namespace Touchstone
    * @brief Closest point of a deformed face, held within the face.
    *
    * Gauss-Newton with the second derivatives of bilinear faces and of smooth
-   * patches, projected to the bounds; from several starts if the first does not
-   * converge.
+   * patches, and of exact surfaces that are far away, projected to the bounds; from
+   * several starts if the first does not converge.
    */
   Projection
   closest_point_projection(const dealii::Point<dim> &x, const FaceGeometry &geometry);
