@@ -110,6 +110,10 @@ namespace Touchstone
      * open node arrives (hysteresis): with equal distances it would alternate for ever. */
     constexpr double edge_hysteresis = 5.;
 
+    /** By how deep it is behind a face: what is covered of a slave surface is a strip beside a side
+     * of the master, and has not come through that face. */
+    constexpr double strip = 0.1;
+
     // ---------------------------------------------------------------- contact of a body with
     // itself
 

@@ -30,6 +30,49 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The faces, whatever their normals, that were closest to a point when the step began. Over an
+     * edge or a corner several are equally close, and their mean decides. */
+    struct ClosestAtStart
+    {
+      Tensor<1, dim> from_foot, normal;
+      /** In front of the planes of these faces, length. */
+      double lowest = 0., highest = 0.;
+
+      ClosestAtStart(const FaceTree &tree, const Point<dim> &start, const double radius)
+      {
+        FaceTree::Box near({start, start});
+        near.extend(radius);
+        std::vector<FacePoint> feet;
+        double                 closest = std::numeric_limits<double>::max();
+        for (const std::size_t i : tree.meeting_in_step(near))
+          {
+            const Face &other = tree.exchange.faces()[i];
+            feet.push_back(foot_at_start(start, other, tree.exchange.exact_surface(other)));
+            closest = std::min(closest, start.distance(feet.back().x));
+          }
+        unsigned int n = 0;
+        for (const FacePoint &other : feet)
+          if (start.distance(other.x) <= closest + Tolerances::touching * radius)
+            {
+              const double height = (start - other.x) * other.normal();
+              lowest              = n == 0 ? height : std::min(lowest, height);
+              highest             = n == 0 ? height : std::max(highest, height);
+              from_foot += start - other.x;
+              normal += other.normal();
+              ++n;
+            }
+        if (n > 0)
+          from_foot /= n;
+        if (normal.norm() > 0.)
+          normal /= normal.norm();
+      }
+    };
+  } // namespace
+
+
+
   bool
   on_far_side(const FaceTree             &tree,
               const Point<dim>           &start,
@@ -44,27 +87,23 @@ namespace Touchstone
     // What it has entered since the step began it has not been behind.
     if (depth_at_start.value_or((foot.x - start) * foot.normal()) < 0.5 * depth)
       return false;
-    const double  radius = start.distance(foot.x);
-    FaceTree::Box near({start, start});
-    near.extend(radius);
-    std::vector<FacePoint> feet;
-    double                 closest = std::numeric_limits<double>::max();
-    for (const std::size_t i : tree.meeting_in_step(near))
-      {
-        const Face &other = tree.exchange.faces()[i];
-        feet.push_back(foot_at_start(start, other, tree.exchange.exact_surface(other)));
-        closest = std::min(closest, start.distance(feet.back().x));
-      }
-    // Over an edge or a corner several faces are equally close, and their mean decides.
-    Tensor<1, dim> from_foot, normal;
-    for (const FacePoint &other : feet)
-      if (start.distance(other.x) <= closest + Tolerances::touching * radius)
-        {
-          from_foot = start - other.x;
-          normal += other.normal();
-        }
-    const double cosine = Tolerances::about_normal;
-    return from_foot * normal > cosine * from_foot.norm() * normal.norm() &&
-           std::max(-1. * (normal * foot.normal()), normal * slave_normal) > cosine * normal.norm();
+    const double         radius = start.distance(foot.x);
+    const ClosestAtStart closest(tree, start, radius);
+    const double         cosine = Tolerances::about_normal, distance = closest.from_foot.norm(),
+                 height  = closest.from_foot * closest.normal,
+                 of_face = closest.normal * foot.normal(), of_slave = closest.normal * slave_normal;
+    if (height > cosine * distance && std::max(-of_face, of_slave) > cosine)
+      return true;
+    if (!depth_at_start)
+      return false;
+    // What was covered of an area that was far outside of the body: beside an edge, where normals
+    // have any direction, in front of some of the faces that meet in it and behind none.
+    if (distance > Tolerances::strip * radius)
+      return closest.lowest > -Tolerances::perpendicular_cosine * distance &&
+             closest.highest > Tolerances::perpendicular_cosine * distance;
+    // The end of a shaft within a bore: where the end of that has straight edges in place of arcs
+    // the former covers a strip of it, and lies beside the bore or in line with its other end.
+    return of_face < cosine && of_slave > -cosine &&
+           (closest.from_foot - height * closest.normal).norm() <= Tolerances::touching * radius;
   }
 } // namespace Touchstone
