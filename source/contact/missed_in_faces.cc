@@ -3,6 +3,7 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/entered_faces.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/sampled_face.h>
@@ -124,6 +125,7 @@ namespace Touchstone
           worst = {{counts, point.x, size, area},
                    in.face.body,
                    point.x + in.to_straight_edges(foot),
+                   evaluate(in.face, in.exact, foot).normal(),
                    true,
                    worst.adjusted,
                    MaterialPoint(slave,
@@ -220,9 +222,11 @@ namespace Touchstone
               }
           }
       }
-    const std::vector<bool> inside = lie_within_bodies(found);
-    std::vector<Overlap>    result;
-    std::size_t             k = 0;
+    std::vector<bool> inside = lie_within_bodies(found);
+    for (const unsigned int body : std::set<unsigned int>{pair.slave_body(), pair.master_body()})
+      remove_entered_elsewhere(found, body, inside);
+    std::vector<Overlap> result;
+    std::size_t          k = 0;
     for (const Face &face : slaves)
       {
         std::vector<Overlap> of_face;
@@ -251,6 +255,34 @@ namespace Touchstone
         result.push_back(worst);
       }
     return result;
+  }
+
+
+
+  void
+  MissedContact::remove_entered_elsewhere(const std::vector<Overlap> &found,
+                                          const unsigned int          body,
+                                          std::vector<bool>          &inside) const
+  {
+    // Of one body either surface has faces that the other one lacks.
+    if (pair.parameters().of_one_body())
+      return;
+    std::vector<std::size_t>     numbers;
+    std::vector<PointBehindFace> points;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (inside[k] && found[k].body == body)
+        {
+          numbers.push_back(k);
+          points.push_back({found[k].place.x, found[k].normal, found[k].place.depth});
+        }
+    const std::vector<bool> through = have_come_through(
+      points,
+      body == pair.slave_body() ? pair.slave() : *pair.master(),
+      contact.ghosted_displacement(),
+      [&](const Face &face) { return body == pair.slave_body() && !carries_nothing(face); },
+      contact.communicator());
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      inside[numbers[k]] = through[k];
   }
 
 

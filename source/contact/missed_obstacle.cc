@@ -223,6 +223,7 @@ namespace Touchstone
             found.push_back({{counts, on_face, size, area},
                              face.body,
                              position(at),
+                             {},
                              at[2] > 0.,
                              taken_out > Tolerances::touches_at_start * size,
                              MaterialPoint(face, pair.slave().trace(face), {{at[0], at[1]}}),

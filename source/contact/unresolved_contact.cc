@@ -2,6 +2,7 @@
 
 #include <touchstone/algebra/nodal_value.h>
 #include <touchstone/base/exchange.h>
+#include <touchstone/contact/entered_faces.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/surface_cone.h>
@@ -236,6 +237,30 @@ namespace Touchstone
 
 
 
+  std::vector<UnresolvedContact::Overlap>
+  UnresolvedContact::entering(const std::vector<Overlap> &found) const
+  {
+    std::vector<PointBehindFace> points;
+    for (const Overlap &overlap : found)
+      {
+        const Tensor<1, dim> out = overlap.slave - overlap.master;
+        points.push_back({overlap.master, out / out.norm(), overlap.depth});
+      }
+    const std::vector<bool> through = have_come_through(
+      points,
+      slave,
+      u,
+      [&](const Face &face) { return !idle(slave, face, forces); },
+      solid.communicator);
+    std::vector<Overlap> result;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (through[k])
+        result.push_back(found[k]);
+    return result;
+  }
+
+
+
   UnresolvedContact::Overlap
   UnresolvedContact::deepest(const std::vector<Overlap> &found, const bool edges) const
   {
@@ -385,7 +410,7 @@ namespace Touchstone
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +
              parameters.master_body + "' have passed through each other at " + at(edges.slave) +
              ", by " + printed(edges.depth);
-    const Overlap vertices = deepest(hidden_vertices(others), /*edges=*/false);
+    const Overlap vertices = deepest(entering(hidden_vertices(others)), /*edges=*/false);
     if (vertices.depth > 0.)
       return "a node of '" + parameters.master_body + "' at " + at(vertices.master) + " lies " +
              printed(vertices.depth) + " within '" + parameters.slave_body +

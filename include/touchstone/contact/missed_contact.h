@@ -88,6 +88,8 @@ namespace Touchstone
       /** Body that it lies in, and the point moved to where it is between straight edges. */
       unsigned int       body = 0;
       dealii::Point<dim> inside;
+      /** Of the face that it lies behind, or the obstacle. */
+      dealii::Tensor<1, dim> normal;
       /** Whether it must be looked for there: a point of the surface is part of the body. */
       bool in_doubt = true;
       /** An overlap at the start has been taken out of it. */
@@ -160,6 +162,12 @@ namespace Touchstone
     /** Which of those that this rank has found lie within the cells of the bodies. Collective. */
     std::vector<bool>
     lie_within_bodies(const std::vector<Overlap> &found) const;
+    /** Of the points within the surface of @p body only those count that have come through the face
+     * which they are behind. Collective. @param inside Changed for the others. */
+    void
+    remove_entered_elsewhere(const std::vector<Overlap> &found,
+                             unsigned int                body,
+                             std::vector<bool>          &inside) const;
     /** Those of all ranks. Collective. */
     std::vector<Overlap>
     deepest_first(const std::vector<Overlap> &found) const;

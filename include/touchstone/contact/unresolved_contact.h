@@ -80,6 +80,10 @@ namespace Touchstone
                      const dealii::BoundingBox<dim> &box,
                      const Face                     &other,
                      std::vector<Overlap>           &found) const;
+    /** Of points of the master behind slave faces those that have come through these. Collective.
+     */
+    std::vector<Overlap>
+    entering(const std::vector<Overlap> &found) const;
     /** What of the master may touch the slave surface. */
     enum class Feature
     {
