@@ -144,6 +144,7 @@ namespace Touchstone
       SlavePoint point{
         x, start[k], input.slave->normal(row.slave), row.was_active, present_faces[k], indices[k]};
       point.stays_at_end = end.stays(k, row);
+      point.is_plain     = !EdgeOnEdge::at_sharp_edge(*input.slave, row.slave);
       if (self)
         {
           point.self        = &*self;

@@ -18,6 +18,10 @@ namespace Touchstone
 
   namespace
   {
+    /** By the diagonal of a face that a node faces: so near to it the node does not meet faces that
+     * it sees edge-on. */
+    constexpr double near_facing = 0.1;
+
     double
     diagonal(const Face &face)
     {
@@ -244,7 +248,7 @@ namespace Touchstone
             if (closest.excludes(square))
               break;
             // Back faces belong to the far side of a thin body.
-            if (!tree().may_meet(i, point))
+            if (!tree().may_be_closest(i, point))
               continue;
             if (const FaceProjection candidate = tree().project(point.x, received.faces()[i]);
                 tree().meets(point, candidate))
@@ -268,7 +272,7 @@ namespace Touchstone
     if (!point.present_face)
       return {};
     const Face *const guess = received.face(*point.present_face, point.index_before);
-    if (guess == nullptr || !tree().may_meet(received.index(*guess), point))
+    if (guess == nullptr || !tree().may_be_closest(received.index(*guess), point))
       return {};
     const FaceProjection projected = tree().project(point.x, *guess);
     if (!tree().meets(point, projected))
@@ -289,7 +293,7 @@ namespace Touchstone
         if (&face == guess)
           closest.offer(projected);
         else if (!closest.is_beyond(face, tree().least_distance(point.x, i)) &&
-                 tree().may_meet(i, point))
+                 tree().may_be_closest(i, point))
           {
             if (const FaceProjection candidate = tree().project(point.x, face);
                 tree().meets(point, candidate))
@@ -297,6 +301,33 @@ namespace Touchstone
           }
       }
     return closest.result(received);
+  }
+
+
+
+  bool
+  Search::ends_at(const SlavePoint &point, const FaceProjection &candidate) const
+  {
+    if (!point.is_plain || candidate.projection.beyond_inner <= 0.)
+      return false;
+    const Face        &face  = *candidate.face;
+    const FaceGeometry shape = received.geometry(face);
+    Tensor<1, dim>     mean;
+    if (!shape.sharp(candidate.projection.xi, mean))
+      return false;
+    // Over the edge there are none but faces that the node sees edge-on.
+    const Point<dim> foot = shape.evaluate(candidate.projection.xi).x;
+    const double     near = Tolerances::touches_at_start * diagonal(face);
+    FaceTree::Box    around({foot, foot});
+    around.extend(near);
+    for (const std::size_t i : tree().meeting(around))
+      if (const Face &other = received.faces()[i];
+          &other != &face && tree().may_be_closest(i, point) &&
+          received.geometry(other).normal({{0., 0.}}) * shape.normal(candidate.projection.xi) <=
+            Tolerances::sharp_edge_cosine &&
+          tree().project(foot, other).projection.distance_squared < near * near)
+        return false;
+    return true;
   }
 
 
@@ -314,7 +345,8 @@ namespace Touchstone
     // Beyond an edge at which xi was bounded and faces meet at a sharp angle, the normal of either
     // face is not the direction of the gap.
     Tensor<1, dim> edge;
-    if (candidate.projection.beyond_inner > Tolerances::in_wedge && shape.sharp(partner.xi, edge))
+    if (candidate.projection.beyond_inner > Tolerances::in_wedge && shape.sharp(partner.xi, edge) &&
+        !ends_at(point, candidate))
       {
         // In the wedge over a sharp edge the normal is the direction to the edge; its sign comes
         // from the mean normal of the edge, the pseudonormal.
@@ -331,19 +363,32 @@ namespace Touchstone
 
 
   std::optional<ContactPartner>
-  Search::find(const SlavePoint &point) const
+  Search::find(const SlavePoint &where) const
   {
     last_distance = reach;
     if (received.faces().empty())
       return {};
+    SlavePoint   point = where;
+    ClosestFaces faces = closest(point);
+    // The end of a bar whose sides alone are named faces nothing else.
+    if (point.is_plain &&
+        (faces.best.face == nullptr || std::sqrt(faces.best.projection.distance_squared) >
+                                         near_facing * diagonal(*faces.best.face)))
+      {
+        point.is_plain = false;
+        faces          = closest(point);
+      }
     // Beyond the end of the master surface there is no contact, up to a tolerance. It is larger for
     // nodes in contact (hysteresis), so that a node at the end does not open and close in turn.
     const auto on_surface = [&](const FaceProjection &candidate) {
-      return candidate.face != nullptr &&
-             candidate.projection.beyond_outer <=
-               (point.stays_at_end ? Tolerances::edge_hysteresis : 1.) * tolerance;
+      if (candidate.face == nullptr)
+        return false;
+      const Projection &projection = candidate.projection;
+      const double      beyond     = ends_at(point, candidate)
+                                       ? std::max(projection.beyond_outer, projection.beyond_inner)
+                                       : projection.beyond_outer;
+      return beyond <= (point.stays_at_end ? Tolerances::edge_hysteresis : 1.) * tolerance;
     };
-    const ClosestFaces    faces = closest(point);
     const FaceProjection &found = faces.best;
     last_distance = found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
     std::optional<ContactPartner> result;

@@ -114,7 +114,7 @@ namespace Touchstone
     for (const std::size_t i : tree.meeting_in_step(path))
       {
         const Face &face = faces[i];
-        if (!tree.may_meet(i, point) || !may_cross(point, face))
+        if (!tree.may_be_closest(i, point) || !may_cross(point, face))
           continue;
         tree.count_candidate();
         if (const auto found =

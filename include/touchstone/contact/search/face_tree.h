@@ -101,6 +101,22 @@ namespace Touchstone
              (point.self == nullptr || point.self->may_meet(point, exchange.faces()[index]));
     }
 
+    /** @brief Whether a face may be the closest one of a node: it may meet it, and a node at no
+     * sharp edge does not see it edge-on. */
+    bool
+    may_be_closest(const std::size_t index, const SlavePoint &point) const
+    {
+      return may_meet(index, point) &&
+             !(point.is_plain && is_edge_on(outlines[index].normal, point.normal));
+    }
+
+    /** @brief Whether a node with this normal does not face a master face with that one. */
+    static bool
+    is_edge_on(const dealii::Tensor<1, dim> &of_master, const dealii::Tensor<1, dim> &of_slave)
+    {
+      return of_master * of_slave > -Tolerances::perpendicular_cosine;
+    }
+
     /** @brief Whether a node that may meet a face does so at the closest point. */
     bool
     meets(const SlavePoint &point, const FaceProjection &candidate) const;

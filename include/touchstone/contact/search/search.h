@@ -171,6 +171,10 @@ namespace Touchstone
     /** The closest face within reach, or the present one if that is as close. */
     ClosestFaces
     closest(const SlavePoint &point) const;
+    /** Whether to this node the master surface ends at the sharp edge on which its closest point
+     * lies. */
+    bool
+    ends_at(const SlavePoint &point, const FaceProjection &candidate) const;
     /** The same by means of the present face, whether in contact or not: nothing if it is not known
      * here or too far away. */
     std::optional<ClosestFaces>

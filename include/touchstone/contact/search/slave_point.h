@@ -36,6 +36,11 @@ namespace Touchstone
      * which others find a partner, see EndOfSurface. */
     bool stays_at_end = in_contact;
 
+    /** Of a node at no sharp edge of the slave surface. Near a face that it faces it meets none
+     * that is seen edge-on: to it the master ends at an edge over which there are none but such
+     * faces. */
+    bool is_plain = false;
+
     /** @name Where slave and master are the same body; null elsewhere */
     /** @{ */
     const SelfContact *self = nullptr;
