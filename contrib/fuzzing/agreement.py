@@ -59,13 +59,14 @@ def compare(scene, default, variant_scene, result, variant):
     d, where = difference(scene, default, variant_scene, result)
     # A step that is cut is another path.
     same_steps = same_times(default, result) or not path_dependent(scene)
-    if variant.exact and same_steps:
-        bound, kind = EXACT, f"differs: {variant.name}"
+    if variant.bound is not None:
+        bound = variant.bound
+    elif variant.exact and same_steps:
+        bound = EXACT
     else:
-        dependent = path_dependent(scene)
-        bound, kind = STEPS["path" if dependent else "exact"], f"differs: {variant.name}"
+        bound = STEPS["path" if path_dependent(scene) else "exact"]
     if not d <= bound:
-        yield Finding(kind, f"{where}: {d:.1e}")
+        yield Finding(f"differs: {variant.name}", f"{where}: {d:.1e}")
 
 
 def explained_by_steps(scene, default, variant_scene, result, fine_scene, fine):

@@ -76,6 +76,11 @@ class Box:
     grading: tuple = (1, 1, 1)
     rotation: tuple = (0, 0, 0)
 
+    def beside(self, boundary):
+        """The boundaries that share an edge with this one."""
+        pair = SIDES.index(boundary) // 2
+        return SIDES[:2 * pair] + SIDES[2 * pair + 2:]
+
     def keys(self):
         result = {"Type": "box", "Lower corner": numbers(self.lower),
                   "Upper corner": numbers(self.upper), "Cells": numbers(self.cells)}
@@ -133,6 +138,8 @@ class Block:
     corners: tuple
     cells: tuple
     grading: tuple = (1, 1, 1)
+
+    beside = Box.beside
 
     def keys(self):
         result = {"Type": "block", "Corners": "; ".join(numbers(c) for c in self.corners),

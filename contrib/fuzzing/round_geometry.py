@@ -23,6 +23,10 @@ class Tube:
     angle: float = 90.0
     grading: float = 1.0
 
+    def beside(self, boundary):
+        """The boundaries that share an edge with this one, but for cuts."""
+        return ("start", "end") if boundary in ("inner", "outer") else ("inner", "outer")
+
     def keys(self):
         return {"Type": "tube", "Axis": AXES[self.axis], "Origin": numbers(self.origin),
                 "Start": number(self.start), "End": number(self.end),
@@ -72,6 +76,10 @@ class Cylinder:
     cells: tuple
     part: str = "full"
     grading: float = 1.0
+
+    def beside(self, boundary):
+        """The boundaries that share an edge with this one, but for cuts."""
+        return ("start", "end") if boundary == "side" else ("side",)
 
     def keys(self):
         return {"Type": "cylinder", "Axis": AXES[self.axis], "Origin": numbers(self.origin),

@@ -5,7 +5,7 @@ import dataclasses
 import math
 import re
 
-from .geometry import AXES, mirror, number, numbers, rotate, scale
+from .geometry import AXES, NotExpressible, mirror, number, numbers, rotate, scale
 
 
 @dataclasses.dataclass(frozen=True)
@@ -190,6 +190,29 @@ class Scene:
         clearance = None if self.clearance is None else self.clearance * length
         return dataclasses.replace(self, bodies=bodies, obstacles=obstacles, pairs=pairs,
                                    clearance=clearance, length=self.length * length, stress=self.stress * stress)
+
+    def with_sides(self):
+        """Pairs with all boundaries beside those that touch, as users name them to be safe.
+        @throws NotExpressible"""
+        bodies = {b.name: b for b in self.bodies}
+        used = {(p.slave, b) for p in self.pairs for b in p.slave_boundaries}
+        used |= {(p.master, b) for p in self.pairs for b in p.master_boundaries}
+
+        def more(name, boundaries):
+            body = bodies.get(name)
+            if not hasattr(getattr(body, "geometry", None), "beside"):
+                return boundaries
+            held = set(body.fixed + body.symmetry) | {b for b, _ in body.conditions}
+            return boundaries + tuple(
+                b for b in body.geometry.beside(boundaries[0])
+                if b not in held and (name, b) not in used)
+
+        pairs = tuple(dataclasses.replace(
+            p, slave_boundaries=more(p.slave, p.slave_boundaries),
+            master_boundaries=more(p.master, p.master_boundaries)) for p in self.pairs)
+        if pairs == self.pairs or any(p.master not in bodies for p in self.pairs):
+            raise NotExpressible("no boundary beside")
+        return dataclasses.replace(self, pairs=pairs)
 
     def load(self, body, t):
         """Resultant of the tractions on a body."""
