@@ -25,7 +25,8 @@ namespace Touchstone
    *
    * When the step began the point was as deep behind the face, and in front of those faces that
    * were closest to it, whatever their normals; and these look away from the face, or the slave
-   * surface looks away from them.
+   * surface looks away from them. Of the middle of an area that was far outside of the body these
+   * may look anywhere, and one that lay close to them covers but a strip.
    *
    * @param start          Of the point, when the step began; of an area its middle.
    * @param slave_normal   Unit outward normal of the slave surface there.
