@@ -144,7 +144,10 @@ namespace Touchstone
       SlavePoint point{
         x, start[k], input.slave->normal(row.slave), row.was_active, present_faces[k], indices[k]};
       point.stays_at_end = end.stays(k, row);
-      point.is_plain     = !EdgeOnEdge::at_sharp_edge(*input.slave, row.slave);
+      const auto around  = input.slave->faces_around(row.slave);
+      point.is_plain     = std::all_of(around.begin(), around.end(), [&](const auto &face) {
+        return face.first->own_normals[face.second] * point.normal > Tolerances::sharp_node_cosine;
+      });
       if (self)
         {
           point.self        = &*self;

@@ -94,7 +94,8 @@ namespace Touchstone
                  of_face = closest.normal * foot.normal(), of_slave = closest.normal * slave_normal;
     if (height > cosine * distance && std::max(-of_face, of_slave) > cosine)
       return true;
-    if (!depth_at_start)
+    // A facet may be behind while its arc is in front.
+    if (!depth_at_start || of_face >= cosine)
       return false;
     // What was covered of an area that was far outside of the body: beside an edge, where normals
     // have any direction, in front of some of the faces that meet in it and behind none.
@@ -103,7 +104,7 @@ namespace Touchstone
              closest.highest > Tolerances::perpendicular_cosine * distance;
     // The end of a shaft within a bore: where the end of that has straight edges in place of arcs
     // the former covers a strip of it, and lies beside the bore or in line with its other end.
-    return of_face < cosine && of_slave > -cosine &&
+    return of_slave > -cosine &&
            (closest.from_foot - height * closest.normal).norm() <= Tolerances::touching * radius;
   }
 } // namespace Touchstone
