@@ -195,22 +195,23 @@ class Scene:
         """Pairs with all boundaries beside those that touch, as users name them to be safe.
         @throws NotExpressible"""
         bodies = {b.name: b for b in self.bodies}
+        if any(p.master not in bodies for p in self.pairs):
+            raise NotExpressible("an obstacle has no boundaries")
         used = {(p.slave, b) for p in self.pairs for b in p.slave_boundaries}
         used |= {(p.master, b) for p in self.pairs for b in p.master_boundaries}
 
         def more(name, boundaries):
-            body = bodies.get(name)
-            if not hasattr(getattr(body, "geometry", None), "beside"):
+            body = bodies[name]
+            if not hasattr(body.geometry, "beside"):
                 return boundaries
-            held = set(body.fixed + body.symmetry) | {b for b, _ in body.conditions}
-            return boundaries + tuple(
-                b for b in body.geometry.beside(boundaries[0])
-                if b not in held and (name, b) not in used)
+            held = {*body.fixed, *body.symmetry, *(b for b, _ in body.conditions)}
+            return boundaries + tuple(b for b in body.geometry.beside(boundaries[0])
+                                      if b not in held and (name, b) not in used)
 
         pairs = tuple(dataclasses.replace(
             p, slave_boundaries=more(p.slave, p.slave_boundaries),
             master_boundaries=more(p.master, p.master_boundaries)) for p in self.pairs)
-        if pairs == self.pairs or any(p.master not in bodies for p in self.pairs):
+        if pairs == self.pairs:
             raise NotExpressible("no boundary beside")
         return dataclasses.replace(self, pairs=pairs)
 
