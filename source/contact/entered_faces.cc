@@ -60,13 +60,15 @@ namespace Touchstone
         const double most = carries(owned) ? 1. : nearer;
         for (const auto &[unused, k] : tree | query::adaptors::queried(query::intersects(box)))
           {
+            if (through_another[k])
+              continue;
             const PointBehindFace &point = all[k];
             MeasuredFace::Xi       xi;
             const auto             depth = measured.depth(point.x, -measured.size(), xi);
-            through_another[k] =
-              through_another[k] || (depth && std::abs(*depth) < most * point.depth &&
-                                     std::abs(evaluate(face, measured.exact, xi).normal() *
-                                              point.normal) < Tolerances::about_normal);
+            if (depth && std::abs(*depth) < most * point.depth &&
+                std::abs(evaluate(face, measured.exact, xi).normal() * point.normal) <
+                  Tolerances::about_normal)
+              through_another[k] = 1;
           }
       }
     Utilities::MPI::max(through_another, communicator, through_another);
