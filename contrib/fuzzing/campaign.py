@@ -84,20 +84,30 @@ def outcome(result, default):
 SMALL_STEPS = 16  # times as many as the scene has
 
 
+def with_times_of(scene, result):
+    """The scene with the steps that a run of it has made."""
+    return dataclasses.replace(scene, ends=tuple(row["time"] for row in result.rows
+                                                 if row["time"] > 0))
+
+
 def compare(scene, default, own, result, variant, program, folder, time_limit):
     """Findings from a run with default settings and one of a variant. Where friction or
-    plasticity makes the result depend on the steps and a run has cut some of them, the variant is
-    run with the steps of the other; if it cuts these, too, one with small steps decides."""
+    plasticity makes the result depend on the steps and a run has cut some of them, each is run
+    with the steps of the other; if both cut these, too, one with small steps decides."""
     found = list(agreement.compare(scene, default, own, result, variant))
     if not found or not agreement.path_dependent(scene) or agreement.same_times(default, result):
         return found
     if variant.exact:
-        ends = tuple(row["time"] for row in default.rows if row["time"] > 0)
-        same = dataclasses.replace(own, ends=ends)
-        again = runs.run(program, same, runs.folder_of(folder, variant.name + ", same steps"),
+        of_variant = with_times_of(own, default)
+        again = runs.run(program, of_variant, runs.folder_of(folder, variant.name + ", same steps"),
                          variant.settings, variant.ranks, time_limit)
         if again.converged() and agreement.same_times(default, again):
-            return list(agreement.compare(scene, default, same, again, variant))
+            return list(agreement.compare(scene, default, of_variant, again, variant))
+        of_default = with_times_of(scene, result)
+        again = runs.run(program, of_default, runs.folder_of(folder, "default, same steps"), (), 1,
+                         time_limit)
+        if again.converged() and agreement.same_times(again, result):
+            return list(agreement.compare(of_default, again, own, result, variant))
     fine = dataclasses.replace(scene, steps=SMALL_STEPS * scene.steps)
     reference = runs.run(program, fine, runs.folder_of(folder, "small steps"), (), 1,
                          SMALL_STEPS * time_limit)

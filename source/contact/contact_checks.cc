@@ -176,16 +176,19 @@ namespace Touchstone
 
 
 
-    /** The deepest overlap of a pair in a state without contact forces. Collective. */
+    /** The deepest overlap of a pair as its bodies are placed, before there are contact forces.
+     * Collective. */
     MissedContact::Place
     overlap_between_nodes(const Contact &contact, const ContactPair &pair)
     {
-      // Overlaps that are adjusted are none, and surfaces that will be tied are not to be kept
-      // apart.
-      if (pair.tied() || !pair.master() || pair.parameters().of_one_body() ||
-          pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+      // Surfaces that will be tied are not to be kept apart.
+      if (pair.tied() || !pair.master() || pair.parameters().of_one_body())
         return {};
-      return MissedContact(contact, pair, normal_forces(contact, pair)).deepest();
+      return MissedContact(contact,
+                           pair,
+                           normal_forces(contact, pair),
+                           MissedContact::Overlaps::as_placed)
+        .deepest();
     }
   } // namespace
 

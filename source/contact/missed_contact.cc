@@ -34,20 +34,36 @@ namespace Touchstone
       constexpr double step = 1e-5, shift = 0.3183;
       return std::floor(sum / step + shift);
     }
+
+
+
+    /** The part of an overlap in the reference state that does not count now. */
+    double
+    adjusted_part(const Contact                &contact,
+                  const ContactPair            &pair,
+                  const MissedContact::Overlaps which)
+    {
+      return which == MissedContact::Overlaps::as_placed ||
+                 pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference
+               ? 0.
+               : pair.part_of_overlap(contact.time());
+    }
   } // namespace
 
 
 
   MissedContact::MissedContact(const Contact     &contact,
                                const ContactPair &pair,
-                               const Vector      &forces)
+                               const Vector      &forces,
+                               const Overlaps     which)
     : contact(contact)
     , pair(pair)
     , forces(forces)
+    , part_adjusted(adjusted_part(contact, pair, which))
   {
     for (std::size_t k = 0; k < pair.rows().size(); ++k)
       adjusted = std::max(adjusted, -pair.overlap(k));
-    adjusted = part_adjusted() * Utilities::MPI::max(adjusted, contact.communicator());
+    adjusted = part_adjusted * Utilities::MPI::max(adjusted, contact.communicator());
   }
 
 
@@ -75,16 +91,6 @@ namespace Touchstone
         if (forces(dim * (basis ? basis->nodes[m] : face.nodes[m]) + d) != 0.)
           return false;
     return true;
-  }
-
-
-
-  double
-  MissedContact::part_adjusted() const
-  {
-    return pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference
-             ? 0.
-             : pair.part_of_overlap(contact.time());
   }
 
 

@@ -98,7 +98,7 @@ namespace Touchstone
               continue;
           }
         double counts = *depth;
-        if (const double part = part_adjusted(); part > 0.)
+        if (part_adjusted > 0.)
           {
             const Face before = MeasuredFace::in_reference(of.face),
                        there  = MeasuredFace::in_reference(in.face);
@@ -106,7 +106,7 @@ namespace Touchstone
             // None if the point has slid here from another face: then what rows have at most.
             const auto start = MeasuredFace(there, in.exact)
                                  .depth(evaluate(before, of.exact, point.xi).x, 0., unused);
-            const double taken_out = std::max(adjusted, part * start.value_or(0.));
+            const double taken_out = std::max(adjusted, part_adjusted * start.value_or(0.));
             counts -= taken_out;
             // The gap of a row there would have to be less by it, too. Round-off of surfaces that
             // touch is no overlap.

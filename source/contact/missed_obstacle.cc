@@ -182,7 +182,6 @@ namespace Touchstone
   std::vector<MissedContact::Overlap>
   MissedContact::obstacle_within(const std::vector<Face> &slaves) const
   {
-    const double         part = part_adjusted();
     std::vector<Overlap> found;
     for (const Face &face : slaves)
       {
@@ -208,14 +207,15 @@ namespace Touchstone
             if (counts > 0.)
               counts += at[2];
             double taken_out = 0.;
-            if (part > 0.)
+            if (part_adjusted > 0.)
               taken_out =
                 std::max(adjusted,
-                         -part * pair.pairing().distance(evaluate(MeasuredFace::in_reference(face),
-                                                                  slave.exact,
-                                                                  MeasuredFace::Xi{{at[0], at[1]}})
-                                                           .x,
-                                                         0.));
+                         -part_adjusted *
+                           pair.pairing().distance(evaluate(MeasuredFace::in_reference(face),
+                                                            slave.exact,
+                                                            MeasuredFace::Xi{{at[0], at[1]}})
+                                                     .x,
+                                                   0.));
             counts -= taken_out;
             if (counts <= Tolerances::touching * size + slave.sagitta())
               continue;

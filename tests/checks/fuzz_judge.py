@@ -3,6 +3,7 @@
 falsified on purpose."""
 
 import copy
+import dataclasses
 
 import touchstone_test
 from touchstone_test import folder, forking_program
@@ -143,6 +144,22 @@ def main():
     again = runs.read(folder / "GMRES_same_steps", 0, False, 0)
     check(f"other steps: {found or 'nothing found'} with the same steps",
           not found and agreement.same_times(right, again))
+
+    # One that cannot make the steps of the default run: this one is made again with its steps.
+    shorter = campaign.with_times_of(scene, result)
+    cut = runs.run(program, shorter, folder / "cut", variant.settings)
+    unable = dataclasses.replace(variant, settings=("Newton/Maximum iterations=1",))
+    other = copy.deepcopy(right)
+    for row in other.rows:
+        row["contact: force z"] *= 1.2
+    found = campaign.compare(scene, other, scene, cut, unable, program, folder, 60)
+    again = runs.read(folder / "default_same_steps", 0, False, 0)
+    check(f"steps that were cut: {found or 'nothing found'} with the same steps",
+          not found and cut.converged() and agreement.same_times(cut, again))
+    for row in cut.rows:
+        row["contact: force z"] *= 0.8
+    found = campaign.compare(scene, right, scene, cut, unable, program, folder, 60)
+    check(f"steps that were cut, falsified: {', '.join(f.kind for f in found)}", bool(found))
 
     check("the same scene for the same seed", generator.scene(3, 5) == generator.scene(3, 5))
     check("another one for another seed", generator.scene(3, 5) != generator.scene(4, 5))

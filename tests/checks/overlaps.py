@@ -3,7 +3,7 @@
 number of ranks; bodies that touch, and those whose overlap is adjusted, are not."""
 # ctest: label = quick
 
-from touchstone_test import check, checks, finish, folder, run, tests
+from touchstone_test import check, checks, finish, folder, launch, run, settings_options, tests
 
 CELLS = [(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (0, 2), (2, 2)]  # of the clamp: x and z of their lower corners
 
@@ -73,5 +73,11 @@ check(not overlaps(upright), f"a block on the ground: {overlaps(upright)}")
 # Corners of the master within slave faces, whose nodes are open by 0.08: the report before the first step tells of them.
 for ranks in 1, 2:
     start = run(f"between_nodes_{ranks}", checks / "tube_across_trough.prm", {}, ranks)
-    start.says("smallest gap -0.09717, between them, at (0, -0.566, 0): an initial overlap")
+    start.says("smallest gap -0.09717, between them, at (0, -0.566, 0): an initial overlap, taken as interference")
+# Also where it is adjusted, or grows with time: before, this was a gap of 0.08.
+for treatment, words in ("adjust", "adjusted to no gap"), ("ramp", "an interference that grows with time"):
+    setting = {"Contact pair contact/Initial overlap": treatment}
+    report = launch("--validate", *settings_options(setting), checks / "tube_across_trough.prm").stdout
+    check(f"smallest gap -0.09717, between them, at (0, -0.566, 0): an initial overlap, {words}" in report,
+          f"{treatment}: {report}")
 finish()

@@ -38,10 +38,22 @@ namespace Touchstone
     static Place
     first_of(const std::vector<Place> &places);
 
+    /** @brief Which overlaps. */
+    enum class Overlaps
+    {
+      /** Those that are to be none: without what is adjusted of initial ones. */
+      that_count,
+      /** Those of the bodies as they are placed. */
+      as_placed
+    };
+
     /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
      *                of the slave surface.
      * Collective. */
-    MissedContact(const Contact &contact, const ContactPair &pair, const Vector &forces);
+    MissedContact(const Contact     &contact,
+                  const ContactPair &pair,
+                  const Vector      &forces,
+                  Overlaps           which = Overlaps::that_count);
 
     /** @brief Whether no node of the pair carries a force. Collective. */
     bool
@@ -78,6 +90,8 @@ namespace Touchstone
     const Contact     &contact;
     const ContactPair &pair;
     const Vector      &forces;
+    /** The part of an overlap in the reference state that does not count now. */
+    const double part_adjusted;
     /** The largest initial overlap of a row that does not count now; length. */
     double adjusted = 0.;
 
@@ -110,9 +124,6 @@ namespace Touchstone
 
     bool
     carries_nothing(const Face &face) const;
-    /** The part of an overlap in the reference state that does not count now. */
-    double
-    part_adjusted() const;
     /** A face in its present position, also with small sliding, whose surfaces are not moved. */
     Face
     present(const Face &face) const;
