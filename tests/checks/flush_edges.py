@@ -95,8 +95,11 @@ for n, force in zip((4, 8), steps[1:]):
     for a in (0, 2):
         below(f"slide, force {a} in {n} steps against two", relative(force[a], steps[0][a]), 0.01)
 # A block passes beside the other one.
-for aside in (3e-3, 1e-4, 1e-5):
-    scene = blocks(f"beside_{aside}", (2, 2), 1000, 0, 0.5, 1 + aside, 0.6)
-    force = run(f"beside_{aside}", scene, {PAIRING: "pointwise", STEPS: 5}).force("c")
+# At the end of a step its edge is level with that of the other one, but for round-off or so much: before, it stood
+# there if it was lower, and the run ended with exit code 2, on some processors also without a difference.
+for aside, higher in ((3e-3, 0), (1e-4, 0), (1e-5, 0), (1e-4, 1e-9), (1e-4, -1e-9), (1e-5, -1e-12)):
+    name = f"beside_{aside}_{higher}"
+    scene = blocks(name, (2, 2), 1000, 0, 0.5, 1 + aside, 0.6 + higher)
+    force = run(name, scene, {PAIRING: "pointwise", STEPS: 5}).force("c")
     check(max(abs(f) for f in force) == 0, f"a block that passes by {aside} beside the other one has force {force}")
 finish()

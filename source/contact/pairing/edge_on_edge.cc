@@ -178,6 +178,16 @@ namespace Touchstone
 
 
 
+  bool
+  EdgeOnEdge::may_stay() const
+  {
+    const double gap = distance * normal;
+    return stands() && (gap <= Tolerances::touches_at_start * reach.size ||
+                        beside() <= Tolerances::beside_edge * gap);
+  }
+
+
+
   // With the weight W of the slave node at the point of contact all of the row is divided by W, as
   // in (30).
   void

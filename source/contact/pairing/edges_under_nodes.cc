@@ -92,7 +92,7 @@ namespace Touchstone
   EdgesUnderNodes::commit()
   {
     for (std::size_t k = 0; k < edges.size(); ++k)
-      stood[k] = edges[k] && edges[k]->stands();
+      stood[k] = edges[k] && edges[k]->may_stay();
     started = true;
     begin_step();
   }

@@ -76,6 +76,11 @@ namespace Touchstone
     bool
     stands() const;
 
+    /** @brief Whether it stands there and touches, or comes along the normal. What comes along a
+     * face beside the edge, with a clearance, does neither. */
+    bool
+    may_stay() const;
+
     /** @brief Whether it is deeper behind the edge than bodies in balance fit within. */
     bool
     deep() const
