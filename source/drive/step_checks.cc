@@ -103,8 +103,8 @@ namespace Touchstone
           std::max(pushed,
                    row.motion.since(contact.committed(row).motion, contact_point(row)).norm());
       }
-    const double limit = Utilities::MPI::max(size, solid.communicator) +
-                         10. * Utilities::MPI::max(pushed, solid.communicator);
+    pushed             = Utilities::MPI::max(pushed, solid.communicator);
+    const double limit = Utilities::MPI::max(size, solid.communicator) + 10. * pushed;
 
     const std::vector<unsigned int> active = active_rows();
     const std::vector<unsigned int> body   = bodies_of_unknowns(solid);
@@ -118,14 +118,29 @@ namespace Touchstone
               touches += active[p];
               touched += committed_active[p];
             }
-        // Only bodies that had contact at the beginning of the step and have none now.
-        if (touches > 0 || touched == 0)
-          continue;
         double moved = 0.;
         for (std::size_t i = 0; i < body.size(); ++i)
           if (body[i] == b)
             moved = std::max(moved, std::abs(u.begin()[i] - committed_u.begin()[i]));
         moved = Utilities::MPI::max(moved, solid.communicator);
+        if (touches > 0 && strayed.farthest(b) > moved + limit)
+          {
+            char text[200];
+            std::snprintf(text,
+                          sizeof(text),
+                          "' strays by %.3g in the iterations of a step, and nothing but contact "
+                          "holds it, which has pushed it by %.3g",
+                          strayed.farthest(b),
+                          pushed);
+            if (strayed.first_attempt())
+              throw StrayedBody("body '" + name + text);
+            result.push_back(
+              "body '" + name + text +
+              ": where it is now may be another balance than that next to the start");
+          }
+        // Only bodies that had contact at the beginning of the step and have none now.
+        if (touches > 0 || touched == 0)
+          continue;
         if (moved > limit)
           {
             char text[200];

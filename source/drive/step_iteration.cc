@@ -164,6 +164,8 @@ namespace Touchstone
   {
     TimerOutput::Scope scope(timer, "assembly");
     forget_increment();
+    if (!integration->dynamic())
+      strayed.note(system->loose_bodies(), solid, u, committed_u);
     if (!solid.linear())
       {
         // Linear bodies have a constant stiffness, which was assembled in the constructor

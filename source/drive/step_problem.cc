@@ -151,6 +151,7 @@ namespace Touchstone
     exchanges = exchanged_since = 0;
     forcing_term.begin_step();
     system->begin_step();
+    strayed.begin_step(committed_time);
     boundary_conditions.external_force(time, u, external);
     // Last: the functions above use the committed state of the material.
     solid.begin_step(time - committed_time, time);

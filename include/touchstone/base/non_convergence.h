@@ -140,6 +140,13 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
   };
 
+  /** @brief Iterates have taken a body that nothing but contact holds farther than anything has
+   * pushed it. */
+  class StrayedBody : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
   /** @brief The bodies touch in a way that contact rows cannot describe. */
   class UnresolvedContactFailure : public NonConvergence
   {

@@ -9,6 +9,7 @@
 #include <touchstone/drive/rigid_tools.h>
 #include <touchstone/drive/step.h>
 #include <touchstone/drive/step_system.h>
+#include <touchstone/drive/strayed_bodies.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 
@@ -163,8 +164,9 @@ namespace Touchstone
     double relative_residual = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
-    double      diameter = 0., missed = 0.;
-    ForcingTerm forcing_term;
+    double        diameter = 0., missed = 0.;
+    ForcingTerm   forcing_term;
+    StrayedBodies strayed;
 
     /** Magnitude of the coordinates, for their round-off. */
     double extent = 0.;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_drive_strayed_bodies_h
+#define touchstone_drive_strayed_bodies_h
+
+#include <touchstone/solid/solid.h>
+
+#include <limits>
+#include <map>
+#include <set>
+
+namespace Touchstone
+{
+  /**
+   * @brief How far the iterates of a step take bodies that nothing but contact holds.
+   *
+   * A ball that rolls between plates has many places of balance. Iterates that go much farther than
+   * anything pushes it may end in another one than that next to the start of the step, which
+   * shorter steps find (doc/theory.md 9).
+   */
+  class StrayedBodies
+  {
+  public:
+    /** @brief An attempt at a step from the committed state of the time @p from. */
+    void
+    begin_step(double from);
+
+    /** @brief Whether it is the first attempt at the step: later ones, which are shorter, are as
+     * good as can be. */
+    bool
+    first_attempt() const
+    {
+      return first;
+    }
+
+    /** @brief An iterate @p u, from which the next increment starts; @p start is the committed
+     * state. Collective. @param bodies Those that contact alone holds. */
+    void
+    note(const std::set<unsigned int> &bodies,
+         const Solid                  &solid,
+         const Vector                 &u,
+         const Vector                 &start);
+
+    /** @brief The largest motion of a node in one direction by any iterate so far; length. */
+    double
+    farthest(unsigned int body) const;
+
+  private:
+    double                         last_from = std::numeric_limits<double>::lowest();
+    bool                           first     = true;
+    std::map<unsigned int, double> moved;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/drive/strayed_bodies.h>
+#include <touchstone/solid/bodies.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Bodies without supports that Newton's method has taken far away on its way (doc/theory.md 9).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  StrayedBodies::begin_step(const double from)
+  {
+    first     = from != last_from;
+    last_from = from;
+    moved.clear();
+  }
+
+
+
+  void
+  StrayedBodies::note(const std::set<unsigned int> &bodies,
+                      const Solid                  &solid,
+                      const Vector                 &u,
+                      const Vector                 &start)
+  {
+    if (bodies.empty())
+      return;
+    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+    std::vector<double>             largest(*bodies.rbegin() + 1, 0.);
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (body[i] < largest.size())
+        largest[body[i]] = std::max(largest[body[i]], std::abs(u.begin()[i] - start.begin()[i]));
+    Utilities::MPI::max(largest, solid.communicator, largest);
+    for (const unsigned int b : bodies)
+      moved[b] = std::max(moved[b], largest[b]);
+  }
+
+
+
+  double
+  StrayedBodies::farthest(const unsigned int body) const
+  {
+    const auto found = moved.find(body);
+    return found == moved.end() ? 0. : found->second;
+  }
+} // namespace Touchstone
