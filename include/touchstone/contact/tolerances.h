@@ -68,8 +68,8 @@ namespace Touchstone
     constexpr double on_edge = 1e-7;
 
     /** A node that is as close to two faces but for this lies on the edge between them and has the
-     * mean of their rows. Exact surfaces that turn with their facets lie over each other by some
-     * 1e-3 of a face beside a common edge, their normals there differ by as much, and a node that
+     * mean of their rows. Exact surfaces that turned with their facets lay over each other by some
+     * 1e-3 of a face beside a common edge, their normals there differed by as much, and a node that
      * symmetry puts on the edge had a balance on either side, too, up to 2e-6 away: solvers
      * differed by up to 3e-4 of a force. */
     constexpr double between_faces = 1e-5;

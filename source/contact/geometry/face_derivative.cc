@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/contact/geometry/edge_normal.h>
-#include <touchstone/contact/pairing/smooth_step.h>
+#include <touchstone/contact/geometry/face_derivative.h>
 
 #include <deal.II/base/symmetric_tensor.h>
-
-#include <cmath>
 
 // Derivatives of position, tangents and normal on a face by the positions and the nodal normals of
 // its nodes, at a fixed xi and by xi. Pairings chain them into derivatives of rows (doc/theory.md
@@ -50,11 +47,13 @@ namespace Touchstone
     /** Derivative of a point or a tangent of a face by the positions of its nodes.
      * @param value The point or tangent, that of the facet and that of the arch over it.
      * @param weights Of the nodes in that of the facet.
+     * @param following What of it turns with the normals.
      * @param turn facet_rotation_derivative(), null where there is no arch. */
     NodeMatrices
     derivative_on_face(const Face                                &face,
                        const Tensor<1, dim>                      &value,
                        const std::array<double, Face::max_nodes> &weights,
+                       const Tensor<1, dim>                      &following,
                        const NodeMatrices                        *turn)
     {
       NodeMatrices   result;
@@ -62,7 +61,7 @@ namespace Touchstone
       if (turn)
         {
           // Equation (8): sum w_m x_m + R a, where a motion turns R a by W_m dx_m x R a.
-          Tensor<1, dim> arch = value;
+          Tensor<1, dim> arch = value - following;
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             arch -= weights[m] * face.position(m);
           by_turn = -1. * cross_matrix(arch);
@@ -95,7 +94,8 @@ namespace Touchstone
   tangent_derivatives(const Face                          &face,
                       const FaceShapes                    &shapes,
                       const std::array<Tensor<1, dim>, 2> &tangents,
-                      const NodeMatrices                  *turn)
+                      const NodeMatrices                  *turn,
+                      const FollowingArch::Part           &part)
   {
     std::array<NodeMatrices, 2> result;
     for (unsigned int a = 0; a < 2; ++a)
@@ -103,7 +103,12 @@ namespace Touchstone
         std::array<double, Face::max_nodes> weights;
         for (unsigned int m = 0; m < face.n_nodes(); ++m)
           weights[m] = shapes.gradient[m][a];
-        result[a] = derivative_on_face(face, tangents[a], weights, turn);
+        result[a] =
+          derivative_on_face(face,
+                             tangents[a],
+                             weights,
+                             part.value_xi[a] * part.normal + part.value * part.normal_xi[a],
+                             turn);
       }
     return result;
   }
@@ -130,40 +135,69 @@ namespace Touchstone
           const FaceShapes shapes(face.degree, xi);
           const auto       by_tangents = own_normal_derivative(point);
           jumps[m]                     = face.normals[m] - point.normal();
-          const auto tangents = tangent_derivatives(face, shapes, point.tangents, turn.get());
+          const auto part              = geometry.following_part(shapes, xi);
+          const auto tangents = tangent_derivatives(face, shapes, point.tangents, turn.get(), part);
           for (unsigned int k = 0; k < face.n_nodes(); ++k)
             own[m][k] = by_tangents[0] * tangents[0][k] + by_tangents[1] * tangents[1][k];
+          // At a node the arch is zero, its slopes are not.
+          own_by_normal[m] = part.value_xi[0] * by_tangents[0] + part.value_xi[1] * by_tangents[1];
         }
   }
 
 
 
+  FacePosition
+  FaceDifferentiator::position(const std::array<double, 2> &xi) const
+  {
+    // Position alone: all that the slave side of a gap needs, as the normal is that of the master.
+    const Face       &face = geometry.face();
+    FacePosition      result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
+    const FaceShapes &shapes = result.shapes;
+    if (patch)
+      {
+        // The point is linear in the control points, which depend on four positions and on four
+        // nodal normals.
+        const GregoryPatch::Basis basis(xi);
+        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+          for (unsigned int m = 0; m < 8; ++m)
+            (m < 4 ? result.x_position : result.x_normal)[m % 4] += basis.value[k] * (*patch)[k][m];
+        return result;
+      }
+    const auto part = geometry.following_part(shapes, xi);
+    result.x_position =
+      derivative_on_face(face, result.point.x, shapes.value, part.value * part.normal, turn.get());
+    for (unsigned int m = 0; m < face.n_nodes() && geometry.follows_normals(); ++m)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.x_normal[m][d][d] = part.value * shapes.value[m];
+    return result;
+  }
+
+
+
   void
-  FaceDifferentiator::differentiate_position(FaceDerivative              &result,
+  FaceDifferentiator::differentiate_tangents(FaceDerivative              &result,
                                              const std::array<double, 2> &xi) const
   {
     const FaceShapes &shapes = result.shapes;
     const Face       &face   = geometry.face();
-    if (!patch)
+    if (patch)
       {
-        result.x_position = derivative_on_face(face, result.point.x, shapes.value, turn.get());
-        result.tangent_position =
-          tangent_derivatives(face, shapes, result.point.tangents, turn.get());
+        const GregoryPatch::Basis basis(xi);
+        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+          for (unsigned int m = 0; m < 8; ++m)
+            for (unsigned int a = 0; a < 2; ++a)
+              (m < 4 ? result.tangent_position : result.tangent_normal)[a][m % 4] +=
+                basis.gradient[k][a] * (*patch)[k][m];
         return;
       }
-    // The point is linear in the control points.
-    const GregoryPatch::Basis basis(xi);
-    for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
-      for (unsigned int m = 0; m < 8; ++m)
-        {
-          const Tensor<2, dim> &d = (*patch)[k][m];
-          // Control points depend on four positions and on four nodal normals.
-          const bool         p = m < 4;
-          const unsigned int i = m % 4;
-          (p ? result.x_position : result.x_normal)[i] += basis.value[k] * d;
-          for (unsigned int a = 0; a < 2; ++a)
-            (p ? result.tangent_position : result.tangent_normal)[a][i] += basis.gradient[k][a] * d;
-        }
+    const auto part = geometry.following_part(shapes, xi);
+    result.tangent_position =
+      tangent_derivatives(face, shapes, result.point.tangents, turn.get(), part);
+    for (unsigned int m = 0; m < face.n_nodes() && geometry.follows_normals(); ++m)
+      for (unsigned int a = 0; a < 2; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result.tangent_normal[a][m][d][d] =
+            part.value_xi[a] * shapes.value[m] + part.value * shapes.gradient[m][a];
   }
 
 
@@ -184,7 +218,7 @@ namespace Touchstone
         else
           {
             result.normal_position[m] += by_tangents[a] * result.tangent_position[a][m];
-            if (patch)
+            if (geometry.follows_normals())
               result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
           }
   }
@@ -230,9 +264,13 @@ namespace Touchstone
     for (unsigned int m = 0; m < n; ++m)
       {
         // Through the normalisation s/|s| only the part perpendicular to n remains.
-        result.normal_normal[m] = shapes.value[m] * direction;
         if (geometry.exact_surface())
-          result.normal_position[m] = direction * result.normal_position[m];
+          {
+            result.normal_position[m] = direction * result.normal_position[m];
+            result.normal_normal[m] =
+              direction * (result.normal_normal[m] - shapes.value[m] * own_by_normal[m]);
+          }
+        result.normal_normal[m] += shapes.value[m] * direction;
       }
   }
 
@@ -241,17 +279,18 @@ namespace Touchstone
   FaceDerivative
   FaceDifferentiator::at(const std::array<double, 2> &xi) const
   {
-    FaceDerivative result{FaceShapes(geometry.face().degree, xi),
-                          geometry.evaluate(xi),
+    const FacePosition at_point = position(xi);
+    FaceDerivative     result{at_point.shapes,
+                          at_point.point,
                           {},
                           {},
                           {},
                           {},
-                          {},
-                          {},
+                          at_point.x_position,
+                          at_point.x_normal,
                           {},
                           {}};
-    differentiate_position(result, xi);
+    differentiate_tangents(result, xi);
     // The normal of the surface itself, unless the normal is interpolated from the nodes alone.
     // Which of the contributions to the normal exist depends on "Master normal" and on the exact
     // surface; see FaceGeometry::normal().
@@ -263,122 +302,6 @@ namespace Touchstone
       differentiate_interpolated_normal(result, own_normal);
     else
       result.normal = own_normal;
-    return result;
-  }
-
-
-
-  FacePosition
-  FaceDifferentiator::position(const std::array<double, 2> &xi) const
-  {
-    const Face &face = geometry.face();
-    // Position alone: all that the slave side of a gap needs, as the normal is that of the master.
-    FacePosition result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
-    if (patch)
-      {
-        const GregoryPatch::Basis basis(xi);
-        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
-          for (unsigned int m = 0; m < 8; ++m)
-            (m < 4 ? result.x_position : result.x_normal)[m % 4] += basis.value[k] * (*patch)[k][m];
-      }
-    else
-      result.x_position = derivative_on_face(face, result.point.x, result.shapes.value, turn.get());
-    return result;
-  }
-
-
-
-  namespace
-  {
-    /** From this face coordinate on the normal turns to that of the edge, within a twentieth of the
-     * face, which is how far from an edge a node can come to rest that belongs on it. It lies on
-     * one of the two faces there, and within neither. Over less than a fiftieth normals that differ
-     * by up to 50 degrees turn faster than changes_steeply() lets Newton's method follow. */
-    constexpr double beside_edge = 0.9;
-
-    /** 0 within the face and at the end of the surface, 1 on edges to other faces.
-     * @param decides Set to the coordinate on which it depends. */
-    double
-    at_edge(const Face &face, const std::array<double, 2> &xi, unsigned int &decides)
-    {
-      double result = 0.;
-      decides       = 0;
-      for (unsigned int a = 0; a < 2; ++a)
-        if (!(face.ends() & (1u << (2 * a + (xi[a] > 0. ? 1 : 0)))))
-          if (const double part = smooth_step(std::abs(xi[a]), beside_edge, 1.); part > result)
-            {
-              result  = part;
-              decides = a;
-            }
-      return result;
-    }
-
-    /** Whether the normal jumps over edges: that of each face alone, and that of a moved exact
-     * surface by the part of the strain that nodal normals do not take out of it. */
-    bool
-    jumps_over_edges(const FaceGeometry &geometry)
-    {
-      return !geometry.smooth() &&
-             (!geometry.interpolates_normals() || geometry.exact_surface() != nullptr);
-    }
-
-    /** The face with the normal on its edges, interpolated from those of the nodes of the edge
-     * alone, which other faces have in common with it. */
-    FaceGeometry
-    with_common_normal(const Face &face)
-    {
-      return {face, nullptr, MasterNormal::averaged};
-    }
-  } // namespace
-
-
-
-  Tensor<1, dim>
-  normal_over_edges(const FaceGeometry          &geometry,
-                    const std::array<double, 2> &xi,
-                    const FacePoint             &point)
-  {
-    const FaceShapes     shapes(geometry.face().degree, xi);
-    const Tensor<1, dim> normal = geometry.normal(shapes, point);
-    unsigned int         decides;
-    const double         part = at_edge(geometry.face(), xi, decides);
-    if (!jumps_over_edges(geometry) || part == 0.)
-      return normal;
-    const FaceGeometry   common = with_common_normal(geometry.face());
-    const Tensor<1, dim> sum    = (1. - part) * normal + part * common.normal(shapes, point);
-    return sum / sum.norm();
-  }
-
-
-
-  FaceDerivative
-  differentiate_over_edges(const FaceGeometry &geometry, const std::array<double, 2> &xi)
-  {
-    FaceDerivative result = FaceDifferentiator(geometry).at(xi);
-    unsigned int   decides;
-    const double   part = at_edge(geometry.face(), xi, decides);
-    if (!jumps_over_edges(geometry) || part == 0.)
-      return result;
-    const FaceGeometry   common    = with_common_normal(geometry.face());
-    const FaceDerivative other     = FaceDifferentiator(common).at(xi);
-    const Tensor<1, dim> sum       = (1. - part) * result.normal + part * other.normal;
-    const Tensor<2, dim> direction = normalisation_derivative(sum);
-    for (unsigned int a = 0; a < 2; ++a)
-      result.normal_xi[a] =
-        direction * ((1. - part) * result.normal_xi[a] + part * other.normal_xi[a]);
-    // The derivative of the cubic step: 6 t (1 - t) over its width.
-    const double t     = (std::abs(xi[decides]) - beside_edge) / (1. - beside_edge),
-                 slope = t < 1. ? 6. * t * (1. - t) / (1. - beside_edge) : 0.;
-    result.normal_xi[decides] +=
-      std::copysign(slope, xi[decides]) * (direction * (other.normal - result.normal));
-    for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
-      {
-        result.normal_position[m] =
-          direction * ((1. - part) * result.normal_position[m] + part * other.normal_position[m]);
-        result.normal_normal[m] =
-          direction * ((1. - part) * result.normal_normal[m] + part * other.normal_normal[m]);
-      }
-    result.normal = sum / sum.norm();
     return result;
   }
 } // namespace Touchstone

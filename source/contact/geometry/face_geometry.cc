@@ -14,7 +14,8 @@ namespace Touchstone
 
   FaceGeometry::FaceGeometry(const Face            &face,
                              const AnalyticSurface *exact,
-                             const MasterNormal     kind)
+                             const MasterNormal     kind,
+                             const Arch             arch)
     : data(face)
     , exact(exact)
     , kind(kind)
@@ -29,6 +30,8 @@ namespace Touchstone
       {
         rotation = facet_rotation(face);
         moved    = relative_displacement(face, rotation);
+        if (arch == Arch::with_normals)
+          following.emplace(face, rotation);
       }
     else
       moved = face.displacement;
@@ -50,6 +53,25 @@ namespace Touchstone
     // A Gregory patch has its displacement in its control points.
     if (patch)
       return patch->evaluate(xi);
+    FacePoint point = on_facet(xi);
+    if (following)
+      FollowingArch::add(following->at(FaceShapes(data.degree, xi), point), point);
+    return point;
+  }
+
+
+
+  FollowingArch::Part
+  FaceGeometry::following_part(const FaceShapes &shapes, const std::array<double, 2> &xi) const
+  {
+    return following ? following->at(shapes, on_facet(xi)) : FollowingArch::Part();
+  }
+
+
+
+  FacePoint
+  FaceGeometry::on_facet(const std::array<double, 2> &xi) const
+  {
     if (data.degree > 1)
       return Touchstone::evaluate(data, exact, xi);
     // Bilinear: reference position and displacement are evaluated apart, as only the former is
@@ -78,8 +100,8 @@ namespace Touchstone
   Point<dim>
   FaceGeometry::position(const std::array<double, 2> &xi, const FaceShapes &shapes) const
   {
-    if (patch)
-      return patch->evaluate(xi).x;
+    if (follows_normals())
+      return evaluate(xi).x;
     Point<dim>     x;
     Tensor<1, dim> u;
     if (data.degree == 1)
@@ -138,11 +160,25 @@ namespace Touchstone
         const Tensor<1, dim> curved[3] = {change[0] * t[0], change[1] * t[0], change[1] * t[1]};
         for (unsigned int a = 0; a < 3; ++a)
           result[a] += rotation * (curved[a] + gradient * of_reference[a]);
+        if (following)
+          {
+            const auto motion = following->second_derivatives(xi, on_facet(xi), result);
+            for (unsigned int a = 0; a < 3; ++a)
+              result[a] += motion[a];
+          }
       }
     else
       for (unsigned int a = 0; a < 3; ++a)
         result[a] += of_reference[a];
     return result;
+  }
+
+
+
+  Tensor<1, dim>
+  FaceGeometry::own_normal(const unsigned int m) const
+  {
+    return following ? evaluate(node_coordinates(data, m)).normal() : data.own_normals[m];
   }
 
 
@@ -161,7 +197,7 @@ namespace Touchstone
         // nodal normals makes it continuous (doc/theory.md 4, "Normals").
         result = point.normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
-          result += shapes.value[m] * (data.normals[m] - data.own_normals[m]);
+          result += shapes.value[m] * (data.normals[m] - own_normal(m));
       }
     return result / result.norm();
   }

@@ -130,6 +130,7 @@ namespace Touchstone
     // No face is added from here on, so pointers to faces stay valid.
     collect_nodes_of_faces();
     collect_owned_nodes(solid);
+    set_made_normals();
     measure_faces(solid.communicator);
   }
 

@@ -53,6 +53,7 @@ namespace Touchstone
           if (face.outer_edges & (1u << e) && on_one(all[e]))
             face.mirrored_edges |= 1u << e;
       }
+    set_made_normals();
   }
 
 
@@ -86,6 +87,37 @@ namespace Touchstone
         for (const auto &[face, m] : node.faces)
           face->displacement[m] = displacement;
       }
+    set_normals();
+  }
+
+
+
+  void
+  Surface::set_made_normals()
+  {
+    std::vector<decltype(Face::displacement)> present;
+    for (auto *list : {&faces, &ghost_faces})
+      for (Face &face : *list)
+        {
+          present.push_back(face.displacement);
+          face.displacement = {};
+        }
+    set_normals();
+    auto displacement = present.begin();
+    for (auto *list : {&faces, &ghost_faces})
+      for (Face &face : *list)
+        {
+          face.made_normals = face.normals;
+          face.displacement = *displacement++;
+        }
+    set_normals();
+  }
+
+
+
+  void
+  Surface::set_normals()
+  {
     // Normals of the faces at their nodes, in length weighted by the area that
     // the face has around the node.
     std::vector<FaceShapes> at_nodes;

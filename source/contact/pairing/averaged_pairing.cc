@@ -56,7 +56,9 @@ namespace Touchstone
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
                  input.parameters->master_normal,
-                 input.solid->communicator)
+                 input.solid->communicator,
+                 // Integrals over faces do not jump where one of these ends.
+                 Arch::with_facet)
         , facing(search,
                  Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))

@@ -97,7 +97,7 @@ namespace Touchstone
       differentiate(const MetFace                       &one,
                     Index                                slave,
                     ContactRow                          &row,
-                    const std::vector<NormalDerivative> *of_patch) const;
+                    const std::vector<NormalDerivative> *of_face) const;
     };
 
     const PairingRegistry::Entry<InsideOutsidePairing>
@@ -222,32 +222,32 @@ namespace Touchstone
                                         const double,
                                         std::vector<ContactRow> &rows)
     {
-      // Of all geometries only smooth patches depend on normals of the master.
+      // Facets do not depend on normals of the master.
       std::vector<const Face *> needed;
-      const bool                smooth = search.faces().exchange().smoothed();
+      const bool                follow = search.faces().exchange().follow_normals();
       for (std::size_t k = 0; k < met.size(); ++k)
-        if (rows[k].was_active && met[k] && smooth)
+        if (rows[k].was_active && met[k] && follow)
           needed.push_back(met[k]->facing.face);
         else if (rows[k].was_active && closest[k])
           add_faces(*closest[k], needed);
       // Collective.
-      const auto of_patches = search.faces().normal_derivatives(needed);
+      const auto of_normals = search.faces().normal_derivatives(needed);
       for (std::size_t k = 0; k < met.size(); ++k)
         {
           rows[k].derivative.reset();
           if (rows[k].was_active && closest[k])
             differentiate_pointwise_row(search.faces(),
-                                        of_patches,
+                                        of_normals,
                                         *closest[k],
                                         input.slave->position(input.slave->owned_nodes()[k], u),
                                         rows[k]);
           if (!rows[k].was_active || !met[k])
             continue;
-          const auto of_patch = of_patches.find(met[k]->facing.face);
+          const auto of_face = of_normals.find(met[k]->facing.face);
           differentiate(*met[k],
                         rows[k].slave,
                         rows[k],
-                        of_patch == of_patches.end() ? nullptr : &of_patch->second);
+                        of_face == of_normals.end() ? nullptr : &of_face->second);
         }
     }
 
@@ -260,7 +260,7 @@ namespace Touchstone
     InsideOutsidePairing::differentiate(const MetFace                       &one,
                                         const Index                          slave,
                                         ContactRow                          &row,
-                                        const std::vector<NormalDerivative> *of_patch) const
+                                        const std::vector<NormalDerivative> *of_face) const
     {
       const Face          &face     = *one.facing.face;
       const FaceGeometry   geometry = search.faces().geometry(face);
@@ -293,8 +293,8 @@ namespace Touchstone
       move(slave, Tensor<2, dim>(unit_symmetric_tensor<dim>()));
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         move(face.nodes[m], -1. * master.x_position[m]);
-      if (of_patch)
-        for (const NormalDerivative &d : *of_patch)
+      if (of_face)
+        for (const NormalDerivative &d : *of_face)
           move(d.node, -1. * (master.x_normal[d.m] * d.value));
       for (const auto &[node, turn] : input.slave->normal_derivative(one.direction.shares))
         {

@@ -133,7 +133,7 @@ namespace Touchstone
           builder);
     // Those of facets matter beside their edges only, see normal_over_edges().
     const bool by_normals =
-      geometry.smooth() ||
+      geometry.follows_normals() ||
       (partner.wedge == 0 &&
        std::any_of(master.normal_normal.begin(),
                    master.normal_normal.begin() + face.n_nodes(),

@@ -19,11 +19,13 @@ namespace Touchstone
   FaceExchange::FaceExchange(const Surface     &surface,
                              const double       reach,
                              const MasterNormal kind,
-                             const MPI_Comm     communicator)
+                             const MPI_Comm     communicator,
+                             const Arch         arch)
     : surface(surface)
     , reach(reach)
     , kind(kind)
     , communicator(communicator)
+    , arch(arch)
   {
   }
 
@@ -156,6 +158,7 @@ namespace Touchstone
           known[f].normals[m]      = own[f].normals[m];
           known[f].edge_normals[m] = own[f].edge_normals[m];
           known[f].own_normals[m]  = own[f].own_normals[m];
+          known[f].made_normals[m] = own[f].made_normals[m];
           if (!committed.empty())
             known[f].committed[m] = committed[f * own[f].n_nodes() + m];
         }

@@ -180,10 +180,11 @@ namespace Touchstone
                  const double       reach,
                  const double       tolerance,
                  const MasterNormal kind,
-                 const MPI_Comm     communicator)
+                 const MPI_Comm     communicator,
+                 const Arch         arch)
     : reach(reach)
     , tolerance(tolerance)
-    , received(master, reach, kind, communicator)
+    , received(master, reach, kind, communicator, arch)
   {
   }
 

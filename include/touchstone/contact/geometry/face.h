@@ -55,6 +55,8 @@ namespace Touchstone
     /** Unit normals averaged over the faces that meet at the node, but for those
      * beyond a sharp edge; over all of them; and those of the face alone. */
     std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals, own_normals;
+    /** What `normals` are in the reference state. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> made_normals;
 
     unsigned int
     n_nodes() const

@@ -34,7 +34,7 @@ namespace Touchstone
     /** Of the normal with respect to positions (per length) and nodal normals. */
     NodeMatrices normal_position, normal_normal;
     /** Of the point at a fixed xi with respect to positions and to nodal normals
-     * (length). The latter are zero unless the geometry is smooth. */
+     * (length). The latter are zero unless the geometry follows normals. */
     NodeMatrices x_position, x_normal;
     /** The same of the tangents. */
     std::array<NodeMatrices, 2> tangent_position, tangent_normal;
@@ -72,12 +72,14 @@ namespace Touchstone
      * interpolated normals on exact surfaces. */
     std::array<dealii::Tensor<1, dim>, Face::max_nodes> jumps;
     std::array<NodeMatrices, Face::max_nodes>           own;
+    /** The same of the own normal at a node by the averaged one there. */
+    NodeMatrices own_by_normal;
 
     std::unique_ptr<GregoryPatch::Derivative> patch;
 
-    /** Set x_position, x_normal and those of the tangents. */
+    /** Set the derivatives of the tangents. */
     void
-    differentiate_position(FaceDerivative &result, const std::array<double, 2> &xi) const;
+    differentiate_tangents(FaceDerivative &result, const std::array<double, 2> &xi) const;
     /** Set normal_xi, normal_position and normal_normal to those of t_1 x t_2 / |t_1 x t_2|. */
     void
     differentiate_own_normal(FaceDerivative &result, const std::array<double, 2> &xi) const;
@@ -91,12 +93,14 @@ namespace Touchstone
    * its nodes. Not for smooth patches.
    * @param shapes Shape functions there.
    * @param tangents Of the exact surface, if there is one.
-   * @param turn facet_rotation_derivative() if there is one, else null. */
+   * @param turn facet_rotation_derivative() if there is one, else null.
+   * @param part What of the arch turns with the normals. */
   std::array<NodeMatrices, 2>
   tangent_derivatives(const Face                                  &face,
                       const FaceShapes                            &shapes,
                       const std::array<dealii::Tensor<1, dim>, 2> &tangents,
-                      const NodeMatrices                          *turn);
+                      const NodeMatrices                          *turn,
+                      const FollowingArch::Part                   &part = {});
 
   /** @brief The matrix A of the cross product, A b = a x b. */
   dealii::Tensor<2, dim>

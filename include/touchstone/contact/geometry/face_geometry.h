@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/geometry/bilinear.h>
 #include <touchstone/contact/geometry/facet_rotation.h>
+#include <touchstone/contact/geometry/following_arch.h>
 #include <touchstone/contact/geometry/gregory_patch.h>
 #include <touchstone/contact/geometry/master_normal.h>
 
@@ -23,8 +24,12 @@ namespace Touchstone
   class FaceGeometry
   {
   public:
-    /** @param exact The exact surface, or null. */
-    FaceGeometry(const Face &face, const AnalyticSurface *exact, MasterNormal kind);
+    /** @param exact The exact surface, or null.
+     *  @param arch  How it turns. */
+    FaceGeometry(const Face            &face,
+                 const AnalyticSurface *exact,
+                 MasterNormal           kind,
+                 Arch                   arch = Arch::with_facet);
 
     const Face &
     face() const
@@ -37,6 +42,13 @@ namespace Touchstone
     smooth() const
     {
       return patch.has_value();
+    }
+
+    /** @brief Its points depend on the normals of the nodes. */
+    bool
+    follows_normals() const
+    {
+      return patch || following;
     }
 
     /** @brief The normal comes from those of the nodes and not from the face. */
@@ -55,6 +67,10 @@ namespace Touchstone
     /** @brief Position and tangents at @p xi. */
     FacePoint
     evaluate(const std::array<double, 2> &xi) const;
+
+    /** @brief What of its arch follows the normals; nothing without an exact surface. */
+    FollowingArch::Part
+    following_part(const FaceShapes &shapes, const std::array<double, 2> &xi) const;
 
     /** @brief Position alone, which costs half. @param shapes Shape functions at @p xi. */
     dealii::Point<dim>
@@ -91,10 +107,11 @@ namespace Touchstone
     sharp(const std::array<double, 2> &xi, dealii::Tensor<1, dim> &mean) const;
 
   private:
-    const Face                 &data;
-    const AnalyticSurface      *exact;
-    MasterNormal                kind;
-    std::optional<GregoryPatch> patch;
+    const Face                  &data;
+    const AnalyticSurface       *exact;
+    MasterNormal                 kind;
+    std::optional<GregoryPatch>  patch;
+    std::optional<FollowingArch> following;
     /** With an exact surface, which turns by it: that of the facet. */
     dealii::Tensor<2, dim> rotation;
     /** Displacements of the nodes; with an exact surface relative to the rotation. */
@@ -102,6 +119,12 @@ namespace Touchstone
     /** If of degree 1: of the nodes and of `moved`. */
     Bilinear<dim> reference, displacement;
 
+    /** The point with all of the arch turned with the facet. */
+    FacePoint
+    on_facet(const std::array<double, 2> &xi) const;
+    /** The normal of the surface itself at the node @p m. */
+    dealii::Tensor<1, dim>
+    own_normal(unsigned int m) const;
     /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
     interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const;

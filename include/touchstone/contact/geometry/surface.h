@@ -155,6 +155,13 @@ namespace Touchstone
     const AnalyticSurface *
     exact_surface(const Face &face) const;
 
+    /** @brief Whether faces may have exact surfaces. */
+    bool
+    has_exact_surfaces() const
+    {
+      return exact;
+    }
+
     /** @brief How the averaged normals of an owned face change with the positions
      * of the nodes around it, in the present position. */
     std::vector<NormalDerivative>
@@ -256,6 +263,12 @@ namespace Touchstone
     /** Normals of the face number @p i around a node. */
     static NormalsAtNode
     normals_at(const NodeOfFaces &node, std::size_t i);
+    /** Set the normals of all faces in their present positions. */
+    void
+    set_normals();
+    /** Set Face::made_normals. */
+    void
+    set_made_normals();
     /** @param node Its faces have their area vectors as normals, which are replaced. */
     void
     average_normals(NodeOfFaces &node);

@@ -31,8 +31,13 @@ namespace Touchstone
     /**
      * @param reach Farthest distance from a slave node at which faces are wanted, length.
      * @param kind  What gaps are measured to.
+     * @param arch  Of geometry().
      */
-    FaceExchange(const Surface &surface, double reach, MasterNormal kind, MPI_Comm communicator);
+    FaceExchange(const Surface &surface,
+                 double         reach,
+                 MasterNormal   kind,
+                 MPI_Comm       communicator,
+                 Arch           arch = Arch::with_facet);
 
     /** @brief A step ends with the displacement @p u (with ghosts), null for the reference
      * state. Without any call faces do not know where they were at the start of the step. */
@@ -87,7 +92,7 @@ namespace Touchstone
     FaceGeometry
     geometry(const Face &face) const
     {
-      return FaceGeometry(face, surface.exact_surface(face), kind);
+      return FaceGeometry(face, surface.exact_surface(face), kind, arch);
     }
 
     /** @brief Gaps to a face are measured to the bilinear surface of its nodes. */
@@ -124,6 +129,13 @@ namespace Touchstone
     smoothed() const
     {
       return kind == MasterNormal::smoothed;
+    }
+
+    /** @brief Gaps to some face are measured to points that depend on the normals of its nodes. */
+    bool
+    follow_normals() const
+    {
+      return smoothed() || (arch == Arch::with_normals && surface.has_exact_surfaces());
     }
 
     /** @brief The exact surface of a face, or null: facets. */
@@ -163,6 +175,7 @@ namespace Touchstone
     const double       reach;
     const MasterNormal kind;
     const MPI_Comm     communicator;
+    const Arch         arch;
     std::vector<Face>  known;
     SearchWork         counted;
     /** Of the nodes of the known faces, the least and the most since the start of the step. */

@@ -53,12 +53,14 @@ namespace Touchstone
      * @param tolerance How far beyond an edge of the master surface a node still
      *                  finds it, as a fraction of the face.
      * @param kind      What gaps are measured to.
+     * @param arch      How exact surfaces turn there.
      */
     Search(const Surface &master,
            double         reach,
            double         tolerance,
            MasterNormal   kind,
-           MPI_Comm       communicator);
+           MPI_Comm       communicator,
+           Arch           arch = Arch::with_normals);
 
     /** @brief A step ends with the displacement @p u (with ghosts), null for the
      * reference state. Without any call nodes that pass through faces within a step

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where there is another balance beside that of a scene, all solvers find the same one: points on the
+edge between two faces of an exact surface that turn by different angles, and a ball that rolls on one
+node."""
+
+from touchstone_test import below, check, checks, finish, run
+
+TYPE = "Linear solver/Type"
+OTHERS = {"gmres": ({TYPE: "Belos GMRES"}, 1), "cg": ({TYPE: "Belos CG"}, 1), "ranks": ({}, 2),
+          "multipliers": ({"Contact/Enforcement": "lagrange multipliers"}, 1)}
+
+
+def forces(result, pair):
+    return [value for axis in "xyz" for value in result.column(f"{pair}: force {axis}")]
+
+
+# Before: 2e-3, 8e-4 and 1.4e-4 apart, each with exit code 0.
+for name, pair in ("point_on_crease", "contact"), ("tube_on_crease", "contact"), ("rolling_ball", "lowpair"):
+    scene = checks / f"{name}.prm"
+    one = run(name, scene, {TYPE: "MUMPS"})
+    size = max(map(abs, forces(one, pair)))
+    for other, (settings, ranks) in OTHERS.items():
+        result = run(f"{name}_{other}", scene, {TYPE: "MUMPS", **settings}, ranks=ranks)
+        check(len(result.column("time")) == len(one.column("time")), f"{result}: other steps than {one}")
+        below(f"{result}, forces", max(abs(a - b) for a, b in zip(forces(result, pair), forces(one, pair))) / size, 1e-6)
+finish()
