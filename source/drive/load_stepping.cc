@@ -108,13 +108,23 @@ namespace Touchstone
       }
     // Beside the preconditioner there is little room for what the checks make.
     give_back_free_memory();
+    // In explicit runs bodies may hit each other's edges at any moment.
+    const bool          in_cycles = problem->cycle_counts() != nullptr;
+    const NarrowContact narrow =
+      in_cycles ? NarrowContact() : narrow_contact(problem->state().contact);
+    if (!narrow.failure.empty())
+      {
+        stop(narrow.failure, at);
+        return;
+      }
     for (const std::string &text : turned_bodies(solid, problem->state().ghosted_displacement()))
       warnings.add(text);
-    // In explicit runs bodies may hit each other's edges at any moment.
-    if (problem->cycle_counts() == nullptr)
-      for (const auto check : {unheld_edges, turned_surfaces, narrow_contact})
+    if (!in_cycles)
+      for (const auto check : {unheld_edges, turned_surfaces})
         for (const std::string &text : check(problem->state().contact))
           warnings.add(text);
+    for (const std::string &text : narrow.warnings)
+      warnings.add(text);
     write_last_checkpoint(at);
     summary.converged = true;
   }

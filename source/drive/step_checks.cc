@@ -125,18 +125,12 @@ namespace Touchstone
         moved = Utilities::MPI::max(moved, solid.communicator);
         if (touches > 0 && strayed.farthest(b) > moved + limit)
           {
-            char text[200];
-            std::snprintf(text,
-                          sizeof(text),
-                          "' strays by %.3g in the iterations of a step, and nothing but contact "
-                          "holds it, which has pushed it by %.3g",
-                          strayed.farthest(b),
-                          pushed);
-            if (strayed.first_attempt())
-              throw StrayedBody("body '" + name + text);
+            const std::string text = "body '" + name + "' " + strayed.in_words(b, pushed);
+            // Only where another attempt does not cost a cut: the state is a balance, after all.
+            if (strayed.first_attempt() && !next_attempt().empty())
+              throw StrayedBody(text);
             result.push_back(
-              "body '" + name + text +
-              ": where it is now may be another balance than that next to the start");
+              text + ": where it is now may be another balance than that next to the start");
           }
         // Only bodies that had contact at the beginning of the step and have none now.
         if (touches > 0 || touched == 0)

@@ -156,6 +156,7 @@ namespace Touchstone
     result.largest_force_scale = largest_force_scale;
     result.counts              = {linear_counts(), assemblies, n_searches()};
     result.tools               = tools.transfer();
+    result.strayed             = strayed;
     return result;
   }
 
@@ -170,6 +171,7 @@ namespace Touchstone
     committed_time      = before.committed_time;
     assemblies += before.counts.assemblies;
     tools.adopt(before.tools);
+    strayed = before.strayed;
     // At time 0 the energies are those that the first velocities mean on this mesh.
     if (committed_time > 0.)
       integration->resume(committed_time, before.energies);

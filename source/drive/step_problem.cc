@@ -192,6 +192,7 @@ namespace Touchstone
         // in it, or overlap deeply, and what a point carried when the step began is far away.
         u = first_guess;
         contact.begin_again(committed_u, committed_time);
+        strayed.begin_round();
       }
     return n_iterations;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 // Bodies without supports that Newton's method has taken far away on its way (doc/theory.md 9).
 namespace Touchstone
@@ -48,5 +49,20 @@ namespace Touchstone
   {
     const auto found = moved.find(body);
     return found == moved.end() ? 0. : found->second;
+  }
+
+
+
+  std::string
+  StrayedBodies::in_words(const unsigned int body, const double pushed) const
+  {
+    char text[200];
+    std::snprintf(text,
+                  sizeof(text),
+                  "strays by %.3g in the iterations of a step, and nothing but contact holds it, "
+                  "which has pushed it by %.3g",
+                  farthest(body),
+                  pushed);
+    return text;
   }
 } // namespace Touchstone

@@ -151,4 +151,8 @@ mirrored = {"Body block/Fixed": "top", "Body block/Geometry/Lower corner": "-1.4
 forces = [run("across", across).force("contact"), run("across_mirrored", across, mirrored).force("contact")]
 for one, other, sign in zip(*forces, (1, 1, -1)):
     below(f"cylinder across faces, forces {forces}", abs(one - sign * other), 1e-6 * abs(forces[0][2]))
+# Deeper than a fifth of a slave face: before, exit code 0, and horizontal forces of 1.9 and 2.5 with two solvers.
+for solver in "MUMPS", "Belos GMRES":
+    sunk = run(f"sunk_{solver[:5]}", checks / "tilting_block.prm", {"Linear solver/Type": solver}, fails=True)
+    check("what touches is narrower than the slave faces" in sunk.summary["failure"], f"{sunk}: {sunk.summary['failure']}")
 finish()

@@ -10,6 +10,15 @@
 
 namespace Touchstone
 {
+  /** @brief What a run says of contact that slave faces do not resolve. */
+  struct NarrowContact
+  {
+    std::vector<std::string> warnings;
+    /** Why the result cannot be right: such an overlap is deeper than a fifth of a slave
+     * face. Empty if there is none so deep. */
+    std::string failure;
+  };
+
   /**
    * @brief Pairs whose contact is so narrow that their slave faces do not resolve it, in words with
    * place and remedy (doc/theory.md 4.1).
@@ -21,7 +30,7 @@ namespace Touchstone
    *
    * Collective.
    */
-  std::vector<std::string>
+  NarrowContact
   narrow_contact(const Contact &contact);
 } // namespace Touchstone
 

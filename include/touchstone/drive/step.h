@@ -8,6 +8,7 @@
 #include <touchstone/drive/missed_pairs.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/rigid_tools.h>
+#include <touchstone/drive/strayed_bodies.h>
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/scene/scene.h>
@@ -110,6 +111,7 @@ namespace Touchstone
     double                    largest_force_scale = 0.;
     StepCounts                counts;
     RigidTools::Transfer      tools;
+    StrayedBodies             strayed;
   };
 
   /**

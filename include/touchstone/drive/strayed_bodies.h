@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 
 namespace Touchstone
 {
@@ -25,8 +26,15 @@ namespace Touchstone
     void
     begin_step(double from);
 
-    /** @brief Whether it is the first attempt at the step: later ones, which are shorter, are as
-     * good as can be. */
+    /** @brief The attempt begins again from its first guess. */
+    void
+    begin_round()
+    {
+      moved.clear();
+    }
+
+    /** @brief Whether it is the first attempt at the step: later ones, made in another way, are as
+     * good as can be. On meshes that change within a step the first is that on the first mesh. */
     bool
     first_attempt() const
     {
@@ -44,6 +52,10 @@ namespace Touchstone
     /** @brief The largest motion of a node in one direction by any iterate so far; length. */
     double
     farthest(unsigned int body) const;
+
+    /** @brief The same in words. @param pushed By how much anything has pushed it; length. */
+    std::string
+    in_words(unsigned int body, double pushed) const;
 
   private:
     double                         last_from = std::numeric_limits<double>::lowest();

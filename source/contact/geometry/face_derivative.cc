@@ -139,8 +139,13 @@ namespace Touchstone
           const auto tangents = tangent_derivatives(face, shapes, point.tangents, turn.get(), part);
           for (unsigned int k = 0; k < face.n_nodes(); ++k)
             own[m][k] = by_tangents[0] * tangents[0][k] + by_tangents[1] * tangents[1][k];
-          // At a node the arch is zero, its slopes are not.
-          own_by_normal[m] = part.value_xi[0] * by_tangents[0] + part.value_xi[1] * by_tangents[1];
+          // The arch is zero at nodes, but for hanging ones of degree 1, which lie beside the
+          // surface.
+          for (unsigned int k = 0; k < face.n_nodes(); ++k)
+            for (unsigned int a = 0; a < 2; ++a)
+              own_by_normal[m][k] +=
+                (part.value_xi[a] * shapes.value[k] + part.value * shapes.gradient[k][a]) *
+                by_tangents[a];
         }
   }
 
@@ -267,8 +272,9 @@ namespace Touchstone
         if (geometry.exact_surface())
           {
             result.normal_position[m] = direction * result.normal_position[m];
-            result.normal_normal[m] =
-              direction * (result.normal_normal[m] - shapes.value[m] * own_by_normal[m]);
+            for (unsigned int k = 0; k < n; ++k)
+              result.normal_normal[m] -= shapes.value[k] * own_by_normal[k][m];
+            result.normal_normal[m] = direction * result.normal_normal[m];
           }
         result.normal_normal[m] += shapes.value[m] * direction;
       }

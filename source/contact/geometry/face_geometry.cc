@@ -72,15 +72,30 @@ namespace Touchstone
   FacePoint
   FaceGeometry::on_facet(const std::array<double, 2> &xi) const
   {
-    if (data.degree > 1)
-      return Touchstone::evaluate(data, exact, xi);
-    // Bilinear: reference position and displacement are evaluated apart, as only the former is
-    // projected onto the exact surface and turned.
+    // Reference position and displacement are evaluated apart, as only the former is projected onto
+    // the exact surface and turned.
     FacePoint                     point;
     Tensor<1, dim>                u;
     std::array<Tensor<1, dim>, 2> du;
-    reference.evaluate(xi, point.x, point.tangents);
-    displacement.evaluate(xi, u, du);
+    if (data.degree == 1)
+      {
+        reference.evaluate(xi, point.x, point.tangents);
+        displacement.evaluate(xi, u, du);
+      }
+    else
+      {
+        const FaceShapes shapes(data.degree, xi);
+        for (unsigned int m = 0; m < data.n_nodes(); ++m)
+          {
+            point.x += shapes.value[m] * data.reference[m];
+            u += shapes.value[m] * moved[m];
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                point.tangents[a] += shapes.gradient[m][a] * data.reference[m];
+                du[a] += shapes.gradient[m][a] * moved[m];
+              }
+          }
+      }
     // Project the reference position, map its tangents and turn both before the displacement is
     // added: equation (8) of doc/theory.md 4.
     if (exact)
@@ -175,10 +190,18 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  FaceGeometry::own_normal(const unsigned int m) const
+  const FaceGeometry::NodeNormals &
+  FaceGeometry::own_normals() const
   {
-    return following ? evaluate(node_coordinates(data, m)).normal() : data.own_normals[m];
+    if (!following)
+      return data.own_normals;
+    if (!following_normals)
+      {
+        following_normals.emplace();
+        for (unsigned int m = 0; m < data.n_nodes(); ++m)
+          (*following_normals)[m] = evaluate(node_coordinates(data, m)).normal();
+      }
+    return *following_normals;
   }
 
 
@@ -195,9 +218,10 @@ namespace Touchstone
         // The own normal of the moved exact surface jumps at the edges between faces, because
         // displacements are only continuous. Adding the interpolated difference to the averaged
         // nodal normals makes it continuous (doc/theory.md 4, "Normals").
-        result = point.normal();
+        const NodeNormals &own = own_normals();
+        result                 = point.normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
-          result += shapes.value[m] * (data.normals[m] - own_normal(m));
+          result += shapes.value[m] * (data.normals[m] - own[m]);
       }
     return result / result.norm();
   }

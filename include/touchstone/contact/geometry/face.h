@@ -139,7 +139,8 @@ namespace Touchstone
    *
    * With an exact surface P (closest-point map) the position is R P(sum N_m X_m) +
    * sum N_m (x_m - R X_m), R the facet_rotation(): the shape is exact, turns with the facet, and
-   * only what nodes have moved apart from that is interpolated. Without, it is sum N_m x_m.
+   * only what nodes have moved apart from that is interpolated. Over edges between faces it jumps;
+   * that of a FaceGeometry with Arch::with_normals does not. Without, it is sum N_m x_m.
    */
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);

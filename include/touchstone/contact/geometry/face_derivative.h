@@ -72,8 +72,8 @@ namespace Touchstone
      * interpolated normals on exact surfaces. */
     std::array<dealii::Tensor<1, dim>, Face::max_nodes> jumps;
     std::array<NodeMatrices, Face::max_nodes>           own;
-    /** The same of the own normal at a node by the averaged one there. */
-    NodeMatrices own_by_normal;
+    /** The same by the averaged normal at node k. */
+    std::array<NodeMatrices, Face::max_nodes> own_by_normal;
 
     std::unique_ptr<GregoryPatch::Derivative> patch;
 

@@ -122,9 +122,12 @@ namespace Touchstone
     /** The point with all of the arch turned with the facet. */
     FacePoint
     on_facet(const std::array<double, 2> &xi) const;
-    /** The normal of the surface itself at the node @p m. */
-    dealii::Tensor<1, dim>
-    own_normal(unsigned int m) const;
+    /** The normals of the surface itself at the nodes. */
+    using NodeNormals = std::array<dealii::Tensor<1, dim>, Face::max_nodes>;
+    const NodeNormals &
+    own_normals() const;
+    /** Of surfaces that follow the normals, once they have been asked for. */
+    mutable std::optional<NodeNormals> following_normals;
     /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
     interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const;
