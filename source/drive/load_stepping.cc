@@ -94,39 +94,43 @@ namespace Touchstone
       }
     if (scene.output.vtu_interval > 0)
       write_vtu(at.step - 1, at.time);
+    if (const std::string reason = judge_end(); !reason.empty())
+      {
+        stop(reason, at);
+        return;
+      }
+    write_last_checkpoint(at);
+    summary.converged = true;
+  }
+
+
+
+  std::string
+  Simulation::judge_end()
+  {
     if (const std::string reason =
           missed_pairs.failure(had_contact, scene.time_integration.dynamic());
         !reason.empty())
-      {
-        stop(reason, at);
-        return;
-      }
+      return reason;
     if (const std::string reason = too_soft_springs(); !reason.empty())
-      {
-        stop(reason, at);
-        return;
-      }
+      return reason;
     // Beside the preconditioner there is little room for what the checks make.
     give_back_free_memory();
+    const StepState state = problem->state();
     // In explicit runs bodies may hit each other's edges at any moment.
     const bool          in_cycles = problem->cycle_counts() != nullptr;
-    const NarrowContact narrow =
-      in_cycles ? NarrowContact() : narrow_contact(problem->state().contact);
+    const NarrowContact narrow    = in_cycles ? NarrowContact() : narrow_contact(state.contact);
     if (!narrow.failure.empty())
-      {
-        stop(narrow.failure, at);
-        return;
-      }
-    for (const std::string &text : turned_bodies(solid, problem->state().ghosted_displacement()))
+      return narrow.failure;
+    for (const std::string &text : turned_bodies(solid, state.ghosted_displacement()))
       warnings.add(text);
     if (!in_cycles)
       for (const auto check : {unheld_edges, turned_surfaces})
-        for (const std::string &text : check(problem->state().contact))
+        for (const std::string &text : check(state.contact))
           warnings.add(text);
     for (const std::string &text : narrow.warnings)
       warnings.add(text);
-    write_last_checkpoint(at);
-    summary.converged = true;
+    return "";
   }
 
 

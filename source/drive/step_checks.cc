@@ -107,8 +107,7 @@ namespace Touchstone
     const double limit = Utilities::MPI::max(size, solid.communicator) + 10. * pushed;
 
     const std::vector<unsigned int> active = active_rows();
-    const std::vector<unsigned int> body   = bodies_of_unknowns(solid);
-    for (const unsigned int b : system->loose_bodies())
+    for (const auto &[b, moved] : largest_motions(system->loose_bodies(), solid, committed_u, u))
       {
         const std::string &name    = scene.bodies[b].name;
         unsigned int       touches = 0, touched = 0;
@@ -118,11 +117,6 @@ namespace Touchstone
               touches += active[p];
               touched += committed_active[p];
             }
-        double moved = 0.;
-        for (std::size_t i = 0; i < body.size(); ++i)
-          if (body[i] == b)
-            moved = std::max(moved, std::abs(u.begin()[i] - committed_u.begin()[i]));
-        moved = Utilities::MPI::max(moved, solid.communicator);
         if (touches > 0 && strayed.farthest(b) > moved + limit)
           {
             const std::string text = "body '" + name + "' " + strayed.in_words(b, pushed);

@@ -14,6 +14,28 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  std::map<unsigned int, double>
+  largest_motions(const std::set<unsigned int> &bodies,
+                  const Solid                  &solid,
+                  const Vector                 &start,
+                  const Vector                 &u)
+  {
+    std::map<unsigned int, double> result;
+    if (bodies.empty())
+      return result;
+    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+    std::vector<double>             largest(*bodies.rbegin() + 1, 0.);
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (body[i] < largest.size())
+        largest[body[i]] = std::max(largest[body[i]], std::abs(u.begin()[i] - start.begin()[i]));
+    Utilities::MPI::max(largest, solid.communicator, largest);
+    for (const unsigned int b : bodies)
+      result[b] = largest[b];
+    return result;
+  }
+
+
+
   void
   StrayedBodies::begin_step(const double from)
   {
@@ -30,16 +52,8 @@ namespace Touchstone
                       const Vector                 &u,
                       const Vector                 &start)
   {
-    if (bodies.empty())
-      return;
-    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
-    std::vector<double>             largest(*bodies.rbegin() + 1, 0.);
-    for (std::size_t i = 0; i < body.size(); ++i)
-      if (body[i] < largest.size())
-        largest[body[i]] = std::max(largest[body[i]], std::abs(u.begin()[i] - start.begin()[i]));
-    Utilities::MPI::max(largest, solid.communicator, largest);
-    for (const unsigned int b : bodies)
-      moved[b] = std::max(moved[b], largest[b]);
+    for (const auto &[body, motion] : largest_motions(bodies, solid, start, u))
+      moved[body] = std::max(moved[body], motion);
   }
 
 

@@ -182,6 +182,10 @@ namespace Touchstone
                 unsigned int phase);
     void
     write_vtu(unsigned int step, double time);
+    /** @brief Why the state at the end is no result; empty if it is one. Warns of what it leaves in
+     * doubt. Collective. */
+    std::string
+    judge_end();
     /** @brief Why springs of contact are too soft for the result to mean anything; empty if they
      * are not. Warns where they are merely soft. Collective. */
     std::string

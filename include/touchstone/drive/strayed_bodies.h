@@ -12,6 +12,14 @@
 
 namespace Touchstone
 {
+  /** @brief The largest motion of a node of each of these bodies in one direction, from @p start to
+   * @p u; length. Collective. */
+  std::map<unsigned int, double>
+  largest_motions(const std::set<unsigned int> &bodies,
+                  const Solid                  &solid,
+                  const Vector                 &start,
+                  const Vector                 &u);
+
   /**
    * @brief How far the iterates of a step take bodies that nothing but contact holds.
    *

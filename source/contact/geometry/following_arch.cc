@@ -20,18 +20,18 @@ namespace Touchstone
   FollowingArch::Part
   FollowingArch::at(const FaceShapes &shapes, const FacePoint &on_facet) const
   {
-    Part                          result;
-    Tensor<1, dim>                arch    = on_facet.x;
-    std::array<Tensor<1, dim>, 2> arch_xi = on_facet.tangents;
+    Part result;
+    result.arch    = on_facet.x;
+    result.arch_xi = on_facet.tangents;
     for (unsigned int m = 0; m < face->n_nodes(); ++m)
       {
         const Point<dim> x = face->position(m);
-        arch -= shapes.value[m] * x;
+        result.arch -= shapes.value[m] * x;
         result.normal += shapes.value[m] * face->normals[m];
         result.turned += shapes.value[m] * turned[m];
         for (unsigned int b = 0; b < 2; ++b)
           {
-            arch_xi[b] -= shapes.gradient[m][b] * x;
+            result.arch_xi[b] -= shapes.gradient[m][b] * x;
             result.normal_xi[b] += shapes.gradient[m][b] * face->normals[m];
             result.turned_xi[b] += shapes.gradient[m][b] * turned[m];
           }
@@ -40,9 +40,9 @@ namespace Touchstone
     // Degenerate faces have no normals.
     if (square == 0.)
       return {};
-    result.value = arch * result.turned / square;
+    result.value = result.arch * result.turned / square;
     for (unsigned int b = 0; b < 2; ++b)
-      result.value_xi[b] = (arch_xi[b] * result.turned + arch * result.turned_xi[b] -
+      result.value_xi[b] = (result.arch_xi[b] * result.turned + result.arch * result.turned_xi[b] -
                             2. * result.value * (result.turned * result.turned_xi[b])) /
                            square;
     return result;
@@ -75,14 +75,6 @@ namespace Touchstone
     const std::array<unsigned int, 2>   of[3]     = {{{0, 0}}, {{0, 1}}, {{1, 1}}};
     const std::array<Tensor<1, dim>, 2> motion_xi = {
       {part.normal_xi[0] - part.turned_xi[0], part.normal_xi[1] - part.turned_xi[1]}};
-    Tensor<1, dim>                arch    = on_facet.x;
-    std::array<Tensor<1, dim>, 2> arch_xi = on_facet.tangents;
-    for (unsigned int m = 0; m < face->n_nodes(); ++m)
-      {
-        arch -= shapes.value[m] * face->position(m);
-        for (unsigned int b = 0; b < 2; ++b)
-          arch_xi[b] -= shapes.gradient[m][b] * face->position(m);
-      }
     std::array<Tensor<1, dim>, 3> result;
     if (square == 0.)
       return result;
@@ -98,8 +90,8 @@ namespace Touchstone
           }
         // Of a = p / q, p = A . N and q = N . N: a,bc q = p,bc - a,b q,c - a,c q,b - a q,bc.
         const Tensor<1, dim> &along_b = part.turned_xi[b], &along_c = part.turned_xi[c];
-        const double          p = arch_xixi * along + arch_xi[b] * along_c + arch_xi[c] * along_b +
-                         arch * along_xixi,
+        const double p = arch_xixi * along + part.arch_xi[b] * along_c + part.arch_xi[c] * along_b +
+                         part.arch * along_xixi,
                      q     = 2. * (along_b * along_c + along * along_xixi),
                      value = (p - 2. * part.value_xi[b] * (along * along_c) -
                               2. * part.value_xi[c] * (along * along_b) - part.value * q) /

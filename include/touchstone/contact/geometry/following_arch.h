@@ -40,9 +40,9 @@ namespace Touchstone
       /** a; length. */
       double                value = 0.;
       std::array<double, 2> value_xi{};
-      /** n and N. */
-      dealii::Tensor<1, dim>                normal, turned;
-      std::array<dealii::Tensor<1, dim>, 2> normal_xi, turned_xi;
+      /** R A, n and N. */
+      dealii::Tensor<1, dim>                arch, normal, turned;
+      std::array<dealii::Tensor<1, dim>, 2> arch_xi, normal_xi, turned_xi;
     };
 
     /** @param on_facet The point there with all of the arch turned with the facet. */
