@@ -5,6 +5,7 @@
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/pressing_rows.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
@@ -31,20 +32,21 @@ namespace Touchstone
     Vector              owned(solid.zero_vector());
     std::vector<Index>  dofs;
     std::vector<double> values;
+    const PressingRows  pressing(contact);
     for (const ContactRow &row : pair.rows())
       // Only compression: the cone of normals has no meaning for a small force in tension, which
       // the tolerance of the active set admits.
-      if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+      if (pressing.contain(row))
         for (unsigned int d = 0; d < dim; ++d)
           {
             dofs.push_back(dim * row.slave + d);
-            values.push_back(state.lambda * row.normal[d]);
+            values.push_back(contact.state(row).lambda * row.normal[d]);
             // A force between nodes is shared by those around it.
             for (const StencilEntry &entry : row.stencil)
               if (row.between_nodes && entry.weight < 0.)
                 {
                   dofs.push_back(dim * entry.node + d);
-                  values.push_back(-entry.weight * state.lambda * row.normal[d]);
+                  values.push_back(-entry.weight * contact.state(row).lambda * row.normal[d]);
                 }
           }
     owned.add(dofs, values);

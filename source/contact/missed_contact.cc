@@ -6,6 +6,7 @@
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
+#include <touchstone/contact/pressing_rows.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
@@ -212,9 +213,10 @@ namespace Touchstone
   {
     if (carries_nothing())
       return 1.;
-    double carrying = 0.;
+    double             carrying = 0.;
+    const PressingRows pressing(contact);
     for (const ContactRow &row : pair.rows())
-      if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+      if (pressing.contain(row))
         carrying += row.area;
     carrying = Utilities::MPI::sum(carrying, contact.communicator());
     // Rows of points have no area.

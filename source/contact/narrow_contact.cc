@@ -47,12 +47,13 @@ namespace Touchstone
 
 
 
-    /** @param of_nodes Rows are those of nodes alone. @param narrow More than coarse. */
+    /** @param of_nodes Rows are those of nodes alone. @param meaning What the overlap says of the
+     * result. */
     std::string
     in_words(const ContactPairParameters &pair,
              const MissedContact::Place  &deepest,
              const bool                   of_nodes,
-             const bool                   narrow)
+             const std::string           &meaning)
     {
       char text[120];
       std::snprintf(text,
@@ -65,8 +66,7 @@ namespace Touchstone
       return "contact pair '" + pair.name +
              "': what touches is narrower than the slave faces. Between slave nodes that carry the "
              "force the surfaces overlap, " +
-             text + ", so that the force may be too small by " +
-             (narrow ? "a factor" : "tens of per cent") + ": " + pair.finer_slave() +
+             text + ", " + meaning + ": " + pair.finer_slave() +
              (of_nodes && pair.obstacle.empty() ? ", or average over faces ('Pairing = averaged')"
                                                 : "");
     }
@@ -98,11 +98,18 @@ namespace Touchstone
         if (!narrow && !(of_nodes && needed > coarse_for_nodes * force))
           continue;
         const MissedContact::Place &deepest = places.front();
-        const std::string           text = in_words(pair.parameters(), deepest, of_nodes, narrow);
-        if (narrow && deepest.depth > too_deep * deepest.size)
-          result.failure = text;
+        if (deepest.depth > too_deep * deepest.size)
+          result.failure = in_words(pair.parameters(),
+                                    deepest,
+                                    of_nodes,
+                                    "more than a fifth of a slave face, so that the bodies are "
+                                    "where contact would not let them be");
         else
-          result.warnings.push_back(text);
+          result.warnings.push_back(in_words(pair.parameters(),
+                                             deepest,
+                                             of_nodes,
+                                             std::string("so that the force may be too small by ") +
+                                               (narrow ? "a factor" : "tens of per cent")));
       }
     return result;
   }

@@ -5,6 +5,7 @@
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/points_in_faces.h>
+#include <touchstone/contact/pressing_rows.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
@@ -39,12 +40,13 @@ namespace Touchstone
     Vector
     slave_flags(const Contact &contact, const ContactPair &pair)
     {
-      Vector flags(contact.solid_model().owned, contact.communicator());
+      Vector             flags(contact.solid_model().owned, contact.communicator());
+      const PressingRows pressing(contact);
       for (const ContactRow &row : pair.rows())
         {
           const RowState &state = contact.state(row);
           if (!row.between_nodes)
-            flags(dim * row.slave + carries) = state.active() && state.lambda > 0.;
+            flags(dim * row.slave + carries) = pressing.contain(row);
           else
             {
               flags(dim * row.slave + taken)   = state.active();
@@ -61,12 +63,26 @@ namespace Touchstone
 
 
 
-    bool
-    carried(const Contact &contact, const ContactRow &row)
+    /** Rows that carried a force in the committed state. */
+    class CarryingRows
     {
-      const RowState &state = contact.enforcement().states().of_committed(row);
-      return state.active() && !state.dropped() && state.lambda > 0.;
-    }
+    public:
+      explicit CarryingRows(const Contact &contact)
+        : states(contact.enforcement().states())
+        , pressing(contact, PressingRows::Of::committed)
+      {
+      }
+
+      bool
+      contain(const ContactRow &row) const
+      {
+        return pressing.contain(row) && !states.of_committed(row).dropped();
+      }
+
+    private:
+      const RowArray<RowState> &states;
+      const PressingRows        pressing;
+    };
 
 
 
@@ -74,12 +90,13 @@ namespace Touchstone
     std::vector<MaterialPoint>
     carrying(const Contact &contact, const ContactPair &pair)
     {
+      const CarryingRows                rows(contact);
       const std::vector<MaterialPoint> &points = pair.committed_points();
       std::vector<int>                  carry(points.size(), 0);
       for (const ContactRow &row : pair.rows())
         if (const MaterialPoint *const point =
               row.between_nodes ? point_of(points, row.slave) : nullptr)
-          carry[point - points.data()] = carried(contact, row);
+          carry[point - points.data()] = rows.contain(row);
       Utilities::MPI::max(carry, contact.communicator(), carry);
       std::vector<MaterialPoint> result;
       for (std::size_t k = 0; k < points.size(); ++k)
@@ -98,10 +115,11 @@ namespace Touchstone
     {
       if (!contact.solid_model().has_history())
         return {};
+      const CarryingRows               rows(contact);
       const std::vector<MaterialPoint> points = carrying(contact, pair);
       std::vector<int>                 at_node(points.size(), 0);
       for (const ContactRow &row : pair.rows())
-        if (!row.between_nodes && carried(contact, row))
+        if (!row.between_nodes && rows.contain(row))
           for (std::size_t k = 0; k < points.size(); ++k)
             at_node[k] = at_node[k] || refers_to(points[k], row.slave);
       Utilities::MPI::max(at_node, contact.communicator(), at_node);
@@ -323,11 +341,11 @@ namespace Touchstone
     {
       if (!pair.takes_points() || pair.points().empty())
         return 0;
-      unsigned int n = 0;
+      unsigned int       n = 0;
+      const PressingRows pressing(contact);
       for (const MaterialPoint &point : pair.points())
         for (const ContactRow &row : pair.rows())
-          n += row.between_nodes && row.slave == point.nodes[point.slave] &&
-               contact.state(row).active() && contact.state(row).lambda > 0.;
+          n += row.between_nodes && row.slave == point.nodes[point.slave] && pressing.contain(row);
       return Utilities::MPI::sum(n, contact.communicator());
     }
   } // namespace

@@ -3,6 +3,7 @@
 #include <touchstone/base/first_of_ranks.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/passed_obstacle.h>
 #include <touchstone/contact/pulling_obstacle.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/solid/bodies.h>
@@ -155,6 +156,8 @@ namespace Touchstone
       throw UnresolvedContactFailure(text);
     if (const std::string text = pulling_obstacle(contact); !text.empty())
       throw PullingObstacle(text);
+    if (const std::string text = passed_obstacle(contact, committed_u); !text.empty())
+      throw PassedObstacle(text);
   }
 
 

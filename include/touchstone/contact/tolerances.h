@@ -272,6 +272,10 @@ namespace Touchstone
     /** Distance of edges that come close, by the shorter one. */
     constexpr double near_edge = 0.1;
 
+    /** Contact forces that a balance does not determine: by the largest of the scene, as iterative
+     * solvers leave them, and by the stiffness of the bodies, of round-off in displacements. */
+    constexpr double undetermined_force = 1e-9, undetermined_strain = 1e-13;
+
     /** Part of the force of a pair below which its direction does not matter. */
     constexpr double small_force = 0.1;
 
