@@ -93,7 +93,7 @@ def with_times_of(scene, result):
 def compare(scene, default, own, result, variant, program, folder, time_limit):
     """Findings from a run with default settings and one of a variant. Where friction or
     plasticity makes the result depend on the steps and a run has cut some of them, each is run
-    with the steps of the other; if both cut these, too, one with small steps decides."""
+    with the steps of the other; if both cut these, too, runs with small steps decide."""
     found = list(agreement.compare(scene, default, own, result, variant))
     if not found or not agreement.path_dependent(scene) or agreement.same_times(default, result):
         return found
@@ -111,8 +111,15 @@ def compare(scene, default, own, result, variant, program, folder, time_limit):
     fine = dataclasses.replace(scene, steps=SMALL_STEPS * scene.steps)
     reference = runs.run(program, fine, runs.folder_of(folder, "small steps"), (), 1,
                          SMALL_STEPS * time_limit)
-    explained = agreement.explained_by_steps(scene, default, own, result, fine, reference)
-    return [] if explained else found
+    if agreement.explained_by_steps(scene, default, own, result, fine, reference):
+        return []
+    if variant.exact:
+        fine_variant = dataclasses.replace(own, steps=SMALL_STEPS * own.steps)
+        again = runs.run(program, fine_variant, runs.folder_of(folder, variant.name + ", small steps"),
+                         variant.settings, variant.ranks, SMALL_STEPS * time_limit)
+        if reference.converged() and again.converged() and agreement.same_times(reference, again):
+            return list(agreement.compare(fine, reference, fine_variant, again, variant))
+    return found
 
 
 def judge_scene(scene, index, variants, program, folder, time_limit):

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 // Contact that is narrower than the slave faces, beside slave nodes that carry a force.
 namespace Touchstone
@@ -47,28 +48,77 @@ namespace Touchstone
 
 
 
-    /** @param of_nodes Rows are those of nodes alone. @param meaning What the overlap says of the
-     * result. */
+    /** What lies between the nodes of a pair that carry a force. */
+    struct Narrowness
+    {
+      MissedContact::Place deepest;
+      /** The first place that is too deep for its face. */
+      std::optional<MissedContact::Place> sunk;
+      /** Forces that would take the overlaps away, over those that the rows carry. */
+      double ratio = 0.;
+    };
+
+
+
+    /** Zero for pairs to which this does not apply. Collective. */
+    Narrowness
+    narrowness(const Contact &contact, const ContactPair &pair)
+    {
+      Narrowness result;
+      // Points inside faces have a warning of their own in the step in which they carry. With small
+      // sliding the surfaces may be anywhere.
+      if (pair.tied() || pair.small_sliding() || pair.parameters().of_one_body() ||
+          (pair.takes_points() && !pair.points().empty()))
+        return result;
+      const Vector forces = normal_forces(contact, pair);
+      const auto   places = MissedContact(contact, pair, forces).beside_nodes();
+      if (places.empty())
+        return result;
+      const auto [modulus, force] = modulus_and_force(contact, pair);
+      // Springs leave as much everywhere.
+      const auto   springs = left_penetration(contact);
+      const auto   of_pair = springs.find(pair.parameters().name);
+      const double left    = of_pair == springs.end() ? 0. : of_pair->second.length;
+      double       needed  = 0.;
+      for (const MissedContact::Place &place : places)
+        {
+          const double depth = std::max(0., place.depth - left);
+          needed += modulus * place.area / place.size * depth;
+          if (!result.sunk && depth > too_deep * place.size)
+            result.sunk = place;
+        }
+      result.deepest = places.front();
+      result.ratio   = force > 0. ? needed / force : 0.;
+      return result;
+    }
+
+
+
+    const char *const where_no_contact_lets_it_be =
+      "more than a fifth of a slave face, so that the bodies are where contact would not let them be";
+
+
+
+    /** @param meaning What the overlap says of the result. */
     std::string
     in_words(const ContactPairParameters &pair,
-             const MissedContact::Place  &deepest,
-             const bool                   of_nodes,
+             const MissedContact::Place  &place,
              const std::string           &meaning)
     {
       char text[120];
       std::snprintf(text,
                     sizeof(text),
                     "by up to %.3g at (%.3g, %.3g, %.3g)",
-                    deepest.depth,
-                    deepest.x[0],
-                    deepest.x[1],
-                    deepest.x[2]);
+                    place.depth,
+                    place.x[0],
+                    place.x[1],
+                    place.x[2]);
+      const bool of_nodes = pair.pairing.name == "pointwise" && pair.obstacle.empty();
       return "contact pair '" + pair.name +
              "': what touches is narrower than the slave faces. Between slave nodes that carry the "
              "force the surfaces overlap, " +
              text + ", " + meaning + ": " + pair.finer_slave() +
-             (of_nodes && pair.obstacle.empty() ? ", or average over faces ('Pairing = averaged')"
-                                                : "");
+             (of_nodes ? ", or average over faces ('Pairing = averaged')" : "");
     }
   } // namespace
 
@@ -80,37 +130,37 @@ namespace Touchstone
     NarrowContact result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
-        const ContactPair &pair = contact.pair(p);
-        // Points inside faces have a warning of their own in the step in which they carry.
-        if (pair.tied() || pair.parameters().of_one_body() ||
-            (pair.takes_points() && !pair.points().empty()))
+        const ContactPair &pair     = contact.pair(p);
+        const Narrowness   here     = narrowness(contact, pair);
+        const bool         of_nodes = pair.parameters().pairing.name == "pointwise",
+                   narrow           = here.ratio > Tolerances::narrow_contact;
+        if (!narrow && !(of_nodes && here.ratio > coarse_for_nodes))
           continue;
-        const Vector forces = normal_forces(contact, pair);
-        const auto   places = MissedContact(contact, pair, forces).beside_nodes();
-        if (places.empty())
-          continue;
-        const auto [modulus, force] = modulus_and_force(contact, pair);
-        double needed               = 0.;
-        for (const MissedContact::Place &place : places)
-          needed += modulus * place.area / place.size * place.depth;
-        const bool of_nodes = pair.parameters().pairing.name == "pointwise",
-                   narrow   = needed > Tolerances::narrow_contact * force;
-        if (!narrow && !(of_nodes && needed > coarse_for_nodes * force))
-          continue;
-        const MissedContact::Place &deepest = places.front();
-        if (deepest.depth > too_deep * deepest.size)
-          result.failure = in_words(pair.parameters(),
-                                    deepest,
-                                    of_nodes,
-                                    "more than a fifth of a slave face, so that the bodies are "
-                                    "where contact would not let them be");
+        if (narrow && here.sunk)
+          result.failure = in_words(pair.parameters(), *here.sunk, where_no_contact_lets_it_be);
         else
           result.warnings.push_back(in_words(pair.parameters(),
-                                             deepest,
-                                             of_nodes,
+                                             here.deepest,
                                              std::string("so that the force may be too small by ") +
                                                (narrow ? "a factor" : "tens of per cent")));
       }
     return result;
+  }
+
+
+
+  std::string
+  sunk_in(const Contact &contact, const std::set<unsigned int> &bodies)
+  {
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair = contact.pair(p);
+        if (bodies.count(pair.slave_body()) == 0 && bodies.count(pair.master_body()) == 0)
+          continue;
+        if (const Narrowness here = narrowness(contact, pair);
+            here.sunk && here.ratio > coarse_for_nodes)
+          return in_words(pair.parameters(), *here.sunk, where_no_contact_lets_it_be);
+      }
+    return "";
   }
 } // namespace Touchstone

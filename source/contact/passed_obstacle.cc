@@ -6,6 +6,7 @@
 #include <touchstone/contact/passed_obstacle.h>
 #include <touchstone/contact/rigid_motion.h>
 #include <touchstone/contact/tolerances.h>
+#include <touchstone/mesh/rotation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,93 +38,161 @@ namespace Touchstone
 
 
 
-    /** The way of a point in a step, as the obstacle sees it, which is where it is now. */
+    /** How the obstacle has moved in a step: a turn about an axis in space, and a translation along
+     * it; a translation alone if it does not turn. */
+    class StepOfObstacle
+    {
+    public:
+      StepOfObstacle(const RigidMotion &then, const RigidMotion &now)
+      {
+        const Tensor<2, dim> turn = now.turn * transpose(then.turn);
+        along                     = now.shift - turn * then.shift;
+        Tensor<1, dim> twice_sine;
+        twice_sine[0]     = turn[2][1] - turn[1][2];
+        twice_sine[1]     = turn[0][2] - turn[2][0];
+        twice_sine[2]     = turn[1][0] - turn[0][1];
+        const double sine = 0.5 * twice_sine.norm();
+        // Half a turn has no sine, and which way round it goes is not known.
+        constexpr double hardly = 1e-6;
+        if (sine < hardly)
+          return;
+        angle                     = std::atan2(sine, 0.5 * (trace(turn) - 1.));
+        axis                      = twice_sine / (2. * sine);
+        const Tensor<1, dim> side = along - (along * axis) * axis;
+        along -= side;
+        centre = Point<dim>(0.5 * (side + cross_product_3d(axis, side) / std::tan(0.5 * angle)));
+      }
+
+      /** Where what the obstacle carries along is at the end of the step, if it is at @p x after
+       * the part @p s of it. */
+      Point<dim>
+      at_end(const Point<dim> &x, const double s) const
+      {
+        const double rest = 1. - s;
+        if (angle == 0.)
+          return x + rest * along;
+        const Tensor<2, dim> turn = rotation(axis, rest * angle * 180. / numbers::PI);
+        return centre + turn * (x - centre) + rest * along;
+      }
+
+      /** A bound for the length of the way of a point as the obstacle sees it. */
+      double
+      length_of_way(const Point<dim> &from, const Point<dim> &to) const
+      {
+        const double radius = std::max(cross_product_3d(from - centre, axis).norm(),
+                                       cross_product_3d(to - centre, axis).norm());
+        return (to - from - along).norm() + angle * radius;
+      }
+
+    private:
+      double         angle = 0.;
+      Tensor<1, dim> axis;
+      Point<dim>     centre;
+      Tensor<1, dim> along;
+    };
+
+
+
+    /** The straight way of a point in a step, past the obstacle as it moves. */
     class Way
     {
     public:
-      Way(const ContactPair &pair, const double time, const Point<dim> &from, const Point<dim> &to)
-        : pair(pair)
+      Way(const Pairing        &obstacle,
+          const StepOfObstacle &motion,
+          const double          time,
+          const Point<dim>     &from,
+          const Point<dim>     &to)
+        : obstacle(obstacle)
+        , motion(motion)
         , time(time)
         , from(from)
         , to(to)
-        , length(from.distance(to))
+        , length(motion.length_of_way(from, to))
       {
       }
 
-      /** How deep within the obstacle it passes; zero if it does not. @param size Of the face. */
+      /** How deep within the obstacle it passes through it; zero if it does not.
+       * @param size Of the face. */
       double
       depth_of_passage(const double size) const
       {
         const double begin = distance(0.);
-        if (begin > length || begin < -Tolerances::touching * size ||
-            distance(1.) < -Tolerances::touching * size)
+        // A point in contact may slide around an edge of the obstacle: the straight line between
+        // its ends then cuts through the edge.
+        const double least = size * (begin > Tolerances::touching * size ? Tolerances::touching
+                                                                         : Tolerances::deep_edge);
+        // Distances change by no more than the point moves, so it comes no deeper than that.
+        if (0.5 * (length - begin - distance(1.)) <= least)
           return 0.;
-        // What is on the obstacle may slide around it, over edges, which the straight way cuts.
-        const double least =
-          (begin > Tolerances::touching * size ? Tolerances::touching : cut_by_sliding) * size;
         double         deepest = 0., s = 0.;
-        bool           within = false;
-        Tensor<1, dim> way_in;
+        Tensor<1, dim> way_in = normal(0.);
         while (s < 1.)
           {
             const double here = distance(s);
-            if (here < 0. && !within)
+            if (here >= 0.)
               {
-                within  = true;
-                way_in  = normal(s);
-                deepest = 0.;
-              }
-            if (here >= 0. && within)
-              {
-                within = false;
-                if (deepest > least && way_in * normal(s) < 0.)
+                if (deepest > least && goes_through(way_in, normal(s)))
                   return deepest;
+                deepest = 0.;
+                // The side that is nearest before it comes in.
+                way_in = normal(s);
               }
             deepest = std::max(deepest, -here);
-            // The surface is no nearer than that.
-            s += std::max(std::abs(here) / length, shortest);
+            // The surface is no nearer than that, and what matters is as wide as it is deep.
+            s += std::max({std::abs(here), least, length / most_steps}) / length;
           }
-        return within && deepest > least && way_in * normal(1.) < 0. ? deepest : 0.;
+        return deepest > least && goes_through(way_in, normal(1.)) ? deepest : 0.;
       }
 
     private:
-      /** By the size of the face: how deep the straight way of what slides may go. */
-      static constexpr double cut_by_sliding = Tolerances::deep_edge;
-      /** The shortest step along the way, as a part of it. */
-      static constexpr double shortest = 1. / 256.;
+      /** What is thinner by this, beside the length of the way, may be missed. */
+      static constexpr double most_steps = 4096.;
+      /** Cosine of 120 degrees. */
+      static constexpr double opposite = -0.5;
 
-      const ContactPair &pair;
-      const double       time;
-      const Point<dim>   from, to;
-      const double       length;
+      const Pairing        &obstacle;
+      const StepOfObstacle &motion;
+      const double          time;
+      const Point<dim>      from, to;
+      const double          length;
+
+      /** Whether the sides with the normals @p in and @p out are opposite to each other, not beside
+       * each other over an edge. */
+      static bool
+      goes_through(const Tensor<1, dim> &in, const Tensor<1, dim> &out)
+      {
+        return in * out < opposite;
+      }
 
       Point<dim>
       at(const double s) const
       {
-        return from + s * (to - from);
+        return motion.at_end(from + s * (to - from), s);
       }
       double
       distance(const double s) const
       {
-        return pair.pairing().distance(at(s), time);
+        return obstacle.distance(at(s), time);
       }
       Tensor<1, dim>
       normal(const double s) const
       {
-        return pair.pairing().at(at(s), time)->normal;
+        return obstacle.at(at(s), time)->normal;
       }
     };
 
 
 
-    /** How the obstacle of a pair was when the step began. Collective. */
+    /** Where the obstacle of a pair was when the step began. Collective. */
     RigidMotion
     committed_motion(const Contact &contact, const ContactPair &pair)
     {
       std::vector<RigidMotion> mine;
       if (!pair.committed_rows().empty())
         mine.push_back(pair.committed_rows().front().motion);
-      return gather_all(mine, contact.communicator()).front();
+      const std::vector<RigidMotion> all = gather_all(mine, contact.communicator());
+      Assert(!all.empty(), ExcInternalError());
+      return all.front();
     }
 
 
@@ -132,9 +201,9 @@ namespace Touchstone
     Passage
     deepest_passage(const Contact &contact, const ContactPair &pair, const Vector &committed)
     {
-      const Vector      before = contact.with_ghosts(committed);
-      const RigidMotion then   = committed_motion(contact, pair),
-                        now    = pair.pairing().motion(contact.time());
+      const Vector         before = contact.with_ghosts(committed);
+      const StepOfObstacle motion(committed_motion(contact, pair),
+                                  pair.pairing().motion(contact.time()));
       std::vector<Passage> found(1);
       for (const Face &face : pair.slave().owned_faces())
         {
@@ -147,10 +216,8 @@ namespace Touchstone
               {
                 const MeasuredFace::Xi xi = {{a, b}};
                 const Point<dim>       to = evaluate(end, exact, xi).x;
-                const Way              way(pair,
-                              contact.time(),
-                              now.place(then.back(evaluate(start, exact, xi).x)),
-                              to);
+                const Way              way(
+                  pair.pairing(), motion, contact.time(), evaluate(start, exact, xi).x, to);
                 found.front() = std::max(found.front(), Passage{way.depth_of_passage(size), to});
               }
         }
@@ -168,7 +235,7 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
-        if (pair.master() || pair.tied() || pair.small_sliding())
+        if (pair.master() || pair.tied())
           continue;
         const Passage worst = deepest_passage(contact, pair, committed);
         if (worst.depth == 0.)
@@ -182,7 +249,9 @@ namespace Touchstone
         std::snprintf(where, sizeof(where), "(%.3g, %.3g, %.3g)", x[0], x[1], x[2]);
         return "contact pair '" + pair.parameters().name + "': '" + pair.parameters().slave_body +
                "' has passed through the obstacle '" + pair.parameters().obstacle +
-               "' within one step, where it is at " + where + " now: make smaller steps";
+               "' within one step, with a point that is at " + where +
+               " now: make smaller steps, or refine the slave surface if the obstacle is smaller "
+               "than its faces";
       }
     return "";
   }

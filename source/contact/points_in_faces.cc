@@ -88,16 +88,15 @@ namespace Touchstone
 
     /** The points of the committed state that carried a force. Collective. */
     std::vector<MaterialPoint>
-    carrying(const Contact &contact, const ContactPair &pair)
+    carrying(const CarryingRows &rows, const ContactPair &pair, const MPI_Comm communicator)
     {
-      const CarryingRows                rows(contact);
       const std::vector<MaterialPoint> &points = pair.committed_points();
       std::vector<int>                  carry(points.size(), 0);
       for (const ContactRow &row : pair.rows())
         if (const MaterialPoint *const point =
               row.between_nodes ? point_of(points, row.slave) : nullptr)
           carry[point - points.data()] = rows.contain(row);
-      Utilities::MPI::max(carry, contact.communicator(), carry);
+      Utilities::MPI::max(carry, communicator, carry);
       std::vector<MaterialPoint> result;
       for (std::size_t k = 0; k < points.size(); ++k)
         if (carry[k] == 1)
@@ -116,7 +115,7 @@ namespace Touchstone
       if (!contact.solid_model().has_history())
         return {};
       const CarryingRows               rows(contact);
-      const std::vector<MaterialPoint> points = carrying(contact, pair);
+      const std::vector<MaterialPoint> points = carrying(rows, pair, contact.communicator());
       std::vector<int>                 at_node(points.size(), 0);
       for (const ContactRow &row : pair.rows())
         if (!row.between_nodes && rows.contain(row))
@@ -140,7 +139,7 @@ namespace Touchstone
         , pair(pair)
         , flags(slave_flags(contact, pair))
         , points(pair.points())
-        , of_last_step(carrying(contact, pair))
+        , of_last_step(carrying(CarryingRows(contact), pair, contact.communicator()))
         , stayed(staying(contact, pair))
       {
       }

@@ -37,9 +37,10 @@ namespace Touchstone
   bool
   PressingRows::contain(const ContactRow &row) const
   {
-    const RowState &here = state(row);
+    const RowState &here   = state(row);
+    const double    length = std::max(Tolerances::undetermined_strain * row.size,
+                                   Tolerances::undetermined_position * contact_point(row).norm());
     return here.active() &&
-           here.lambda > std::max(Tolerances::undetermined_force * largest,
-                                  Tolerances::undetermined_strain * row.stiffness * row.size);
+           here.lambda > std::max(Tolerances::undetermined_force * largest, length * row.stiffness);
   }
 } // namespace Touchstone

@@ -264,8 +264,8 @@ namespace Touchstone
   {
     // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
     // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md). Failures
-    // for which a shorter step is no remedy name their cause themselves.
-    if (scene.time_integration.dynamic() || summary.steps == 0 || !failure.shorter_step_may_help())
+    // that name their cause say what else there is.
+    if (scene.time_integration.dynamic() || summary.steps == 0 || failure.names_its_cause())
       return "";
     return ". Where all steps before went well there may be no static equilibrium to go on with, "
            "because a body starts to slide as a whole, snaps or buckles: with inertia "
@@ -279,8 +279,7 @@ namespace Touchstone
   Simulation::describe(const NonConvergence &failure, const bool repeated) const
   {
     std::string text = failure.what();
-    // Such failures name their cause themselves.
-    if (!failure.shorter_step_may_help())
+    if (failure.names_its_cause())
       return text;
     // Collective: all ranks describe the same position.
     const StepDifficulty difficulty = problem->difficulty();

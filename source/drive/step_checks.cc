@@ -3,6 +3,7 @@
 #include <touchstone/base/first_of_ranks.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/narrow_contact.h>
 #include <touchstone/contact/passed_obstacle.h>
 #include <touchstone/contact/pulling_obstacle.h>
 #include <touchstone/drive/step_problem.h>
@@ -155,9 +156,13 @@ namespace Touchstone
     if (const std::string text = unresolved_contact(contact); !text.empty())
       throw UnresolvedContactFailure(text);
     if (const std::string text = pulling_obstacle(contact); !text.empty())
-      throw PullingObstacle(text);
+      throw PullingObstacle(text, time - committed_time);
     if (const std::string text = passed_obstacle(contact, committed_u); !text.empty())
-      throw PassedObstacle(text);
+      throw PassedObstacle(text, time - committed_time);
+    // Where a body is that contact holds may be wrong long before the end of the run.
+    if (!integration->dynamic() && !scene.refinement.active())
+      if (const std::string text = sunk_in(contact, system->unsupported_bodies()); !text.empty())
+        throw UnresolvedContactFailure(text);
   }
 
 

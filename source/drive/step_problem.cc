@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact_checks.h>
-#include <touchstone/contact/narrow_contact.h>
 #include <touchstone/contact/points_in_faces.h>
 #include <touchstone/drive/driven_bodies.h>
 #include <touchstone/drive/explicit_step.h>
@@ -263,10 +262,6 @@ namespace Touchstone
     result.warnings              = check_loose_bodies();
     result.warnings.insert(result.warnings.end(), points.warnings.begin(), points.warnings.end());
     check_contact();
-    // Where a body is that contact holds may be wrong long before the end of the run.
-    if (!integration->dynamic() && !held_by_contact().empty())
-      if (const std::string failure = narrow_contact(contact).failure; !failure.empty())
-        throw UnresolvedContactFailure(failure);
     result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;
   }

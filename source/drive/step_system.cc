@@ -246,9 +246,8 @@ namespace Touchstone
     std::vector<Condition>       held    = graph.accepted();
     const std::vector<Condition> springs = parts.boundary_conditions.ground_springs().conditions();
     held.insert(held.end(), springs.begin(), springs.end());
-    const FreeMotion motion = modes.free_motion(held);
-    unsupported_motions     = motion.description;
-    for (const unsigned int body : motion.bodies)
+    left_free = modes.free_motion(held);
+    for (const unsigned int body : left_free.bodies)
       {
         const std::string &name  = parts.scene.bodies[body].name;
         bool               meets = false;
@@ -258,7 +257,7 @@ namespace Touchstone
           throw InputError("Body " + name,
                            "Fixed",
                            "",
-                           "nothing holds the bodies in place: " + motion.description,
+                           "nothing holds the bodies in place: " + left_free.description,
                            "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
                            "contact pair.");
       }

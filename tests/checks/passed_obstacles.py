@@ -3,7 +3,7 @@
 ends with the reason; never exit code 0 with what is left behind them."""
 # ctest: label = quick
 
-from touchstone_test import below, finish, folder, run
+from touchstone_test import below, check, finish, folder, run, tests
 
 BLOCK = """
 set Bodies        = block
@@ -78,6 +78,11 @@ for ranks in 1, 2:
         ends = [one.column(f"sole: {name}")[-1] for one in (fine, once)]
         below(f"{once}, {name}: {ends}", abs(ends[1] / ends[0] - 1), 1e-8)
 
+# Springs let the block in at both ends of the step.
+SPRINGS = {"Contact/Enforcement": "penalty"}
+ends = [run(f"ring_penalty_{steps}", ring, {**SPRINGS, STEPS: steps}).column("sole: max pressure")[-1] for steps in (4, 1)]
+below(f"ring, penalty, max pressure: {ends}", abs(ends[1] / ends[0] - 1), 1e-8)
+
 # A sheet that is driven into the block, by its thickness in a step, or five times that: no force, exit code 0.
 stl_box("sheet.stl", (-2, -2, -0.04), (2, 2, 0))
 sheet = write("sheet", holds=HELD, **WHOLE, tool="  set Shape    = stl\n  set File     = sheet.stl\n"
@@ -95,4 +100,15 @@ ball = write("ball", holds=HELD, **WHOLE, tool="  set Shape    = sphere\n  set P
 inside = run("ball", ball, fails=True)
 inside.says(THROUGH)
 
+# What turns in its place, by a third of a turn in each step, has gone through nothing, nor has what it is pressed on.
+spinning = run("spinning", tests / "turning_roller.prm", {"Obstacle roller/Rotate angle": "360 * max(t - 1, 0)"})
+check("trying again" not in spinning.log, f"{spinning}: a step was made again")
+# Nor has what slides round a tool: a block is drawn over the edge of a box, which the straight way of its nodes cuts by
+# as much as it slides.
+stl_box("bench.stl", (-3, -3, -1), (0.4, 3, 0))
+over = write("over", holds="  set Boundary conditions = top\n  subsection Boundary top\n    set Displacement x = 0.5 * t\n"
+             "    set Displacement y = 0\n    set Displacement z = -0.05\n  end", **WHOLE,
+             tool="  set Shape = stl\n  set File  = bench.stl\n  set Rotate axis  = 0, 1, 0\n  set Rotate angle = 1e-9 * t")
+drawn = run("drawn", over)
+check(THROUGH not in drawn.log, f"{drawn}: taken for a passage")
 finish()

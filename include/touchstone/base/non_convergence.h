@@ -25,6 +25,14 @@ namespace Touchstone
       return true;
     }
 
+    /** @brief Whether the text says what is wrong, so that the last Newton iteration tells nothing
+     * more. */
+    virtual bool
+    names_its_cause() const
+    {
+      return !shorter_step_may_help();
+    }
+
     /** @brief How bad the failure is, beside what the last Newton iteration says, so that attempts
      * can be told apart; no unit. None if nothing but the last iteration tells. */
     virtual std::optional<double>
@@ -60,6 +68,34 @@ namespace Touchstone
 
   private:
     double missing;
+  };
+
+  /** @brief Nodes are in balance, but bodies are in a place that the step cannot have led them to.
+   */
+  class WrongPlace : public NonConvergence
+  {
+  public:
+    /** @param step Length of the step in time: nothing else tells attempts apart. */
+    WrongPlace(const std::string &what, const double step)
+      : NonConvergence(what)
+      , step(step)
+    {
+    }
+
+    bool
+    names_its_cause() const override
+    {
+      return true;
+    }
+
+    std::optional<double>
+    measure() const override
+    {
+      return step;
+    }
+
+  private:
+    double step;
   };
 
   /** @brief The active set came back to one it had before, again and again. */

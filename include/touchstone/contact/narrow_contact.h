@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/contact.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace Touchstone
   struct NarrowContact
   {
     std::vector<std::string> warnings;
-    /** Why the result cannot be right: such an overlap is deeper than a fifth of a slave
-     * face. Empty if there is none so deep. */
+    /** Why the result cannot be right: where the forces are off by a factor such an overlap is
+     * deeper than a fifth of a slave face. Empty if there is none so deep. */
     std::string failure;
   };
 
@@ -32,6 +33,13 @@ namespace Touchstone
    */
   NarrowContact
   narrow_contact(const Contact &contact);
+
+  /** @brief Looks whether one of @p bodies, which nothing but contact holds, lies deeper than a
+   * fifth of a slave face within what it touches, between nodes that carry a force: it tips over or
+   * slides there, and how far depends on the mesh (doc/theory.md 4.1).
+   * @return where, in words; empty if there is none. The same on all ranks. Collective. */
+  std::string
+  sunk_in(const Contact &contact, const std::set<unsigned int> &bodies);
 } // namespace Touchstone
 
 #endif

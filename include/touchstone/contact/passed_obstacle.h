@@ -13,14 +13,14 @@ namespace Touchstone
   class Contact;
 
   /** @brief A slave surface has passed through an obstacle within the step. */
-  class PassedObstacle : public NonConvergence
+  class PassedObstacle : public WrongPlace
   {
-    using NonConvergence::NonConvergence;
+    using WrongPlace::WrongPlace;
   };
 
   /** @brief Looks in a state of balance for points of slave surfaces that have gone through an
-   * obstacle within the step: in front of it or on it at both ends, within it between them on the
-   * straight way as the obstacle sees it, in by one side and out by another (doc/theory.md 4.1).
+   * obstacle within the step: on the straight way from where they were, past the obstacle as it
+   * moves, they come in by one side of it and go out by another one (doc/theory.md 4.1).
    * @param committed The displacement when the step began, owned dofs.
    * @return where, in words; empty if there is none. The same on all ranks. Collective. */
   std::string

@@ -12,9 +12,9 @@ namespace Touchstone
   class Contact;
 
   /** @brief An obstacle pulls at a slave surface that it has passed within the step. */
-  class PullingObstacle : public NonConvergence
+  class PullingObstacle : public WrongPlace
   {
-    using NonConvergence::NonConvergence;
+    using WrongPlace::WrongPlace;
   };
 
   /** @brief Looks in a state of balance for an obstacle that pulls at a slave surface: within one

@@ -272,9 +272,13 @@ namespace Touchstone
     /** Distance of edges that come close, by the shorter one. */
     constexpr double near_edge = 0.1;
 
-    /** Contact forces that a balance does not determine: by the largest of the scene, as iterative
-     * solvers leave them, and by the stiffness of the bodies, of round-off in displacements. */
-    constexpr double undetermined_force = 1e-9, undetermined_strain = 1e-13;
+    /** Contact forces that a balance does not determine, by the largest of the scene: what
+     * iterative solvers leave. */
+    constexpr double undetermined_force = 1e-9;
+
+    /** The same by the stiffness of the bodies: round-off of displacements, by the size of a face,
+     * and of positions, by the distance from the origin. */
+    constexpr double undetermined_strain = 1e-13, undetermined_position = 1e-15;
 
     /** Part of the force of a pair below which its direction does not matter. */
     constexpr double small_force = 0.1;

@@ -133,7 +133,14 @@ namespace Touchstone
     const std::string &
     unsupported() const
     {
-      return unsupported_motions;
+      return left_free.description;
+    }
+
+    /** @brief The bodies that supports leave a motion, by check_bodies_without_support(). */
+    const std::set<unsigned int> &
+    unsupported_bodies() const
+    {
+      return left_free.bodies;
     }
 
     /** @brief Parts of bodies that are not connected with the rest and that supports leave free, in
@@ -166,8 +173,10 @@ namespace Touchstone
     std::unique_ptr<LinearSystem>    system;
     std::unique_ptr<CondensedSystem> condensed;
     /** Solution of the dofs beyond the displacements: multipliers. */
-    std::vector<double>    extra;
-    std::string            free_motions, unsupported_motions, free_parts;
+    std::vector<double> extra;
+    std::string         free_motions, free_parts;
+    /** By supports alone. */
+    FreeMotion             left_free;
     std::set<unsigned int> loose;
     /** Diameter of the smallest cell, length. */
     double length;
