@@ -82,11 +82,13 @@ namespace Touchstone
     force -= internal;
     damping_force(v, drag);
     force -= drag;
+    // Hanging nodes leave their mass, as their forces, to the nodes that they follow.
+    Vector mass_of_node(mass.of_nodes());
+    solid.condense(mass_of_node);
     solid.condense(force);
     supports.remove_force(force);
     for (std::size_t i = 0; i < force.locally_owned_size(); ++i)
-      a.begin()[i] =
-        mass.of_nodes().begin()[i] > 0. ? force.begin()[i] / mass.of_nodes().begin()[i] : 0.;
+      a.begin()[i] = mass_of_node.begin()[i] > 0. ? force.begin()[i] / mass_of_node.begin()[i] : 0.;
     solid.hanging.distribute(a);
     // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
     // steps are compared with.

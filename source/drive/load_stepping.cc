@@ -228,8 +228,7 @@ namespace Touchstone
   bool
   Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
   {
-    if (const std::string how = problem->next_attempt();
-        failure.shorter_step_may_help() && !how.empty())
+    if (const std::string how = problem->next_attempt(); !failure.names_its_cause() && !how.empty())
       {
         const std::string reason = describe(failure, /*repeated=*/false);
         problem->rollback();

@@ -47,8 +47,11 @@ namespace Touchstone
         momentum[d] = tool.free().inertia[d] * omega[d];
       return cross_product_3d(omega, momentum);
     };
-    moment += (1. - scheme->alpha_f) * gyroscopic(spin) + scheme->alpha_f * gyroscopic(spin_before);
-    moment = to.turn * moment;
+    // The mean of the accelerations is that at the time of the balance, whatever alpha_m, and is to
+    // be seen in the axes of that time; forces and momenta turn with those of their ends.
+    const double at_start = scheme->alpha_f, at_end = 1. - scheme->alpha_f;
+    moment = at_end * (to.turn * (moment + gyroscopic(spin))) +
+             at_start * (from.turn * (moment + gyroscopic(spin_before)));
     Components result{};
     for (unsigned int d = 0; d < dim; ++d)
       {

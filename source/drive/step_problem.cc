@@ -3,6 +3,7 @@
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/points_in_faces.h>
 #include <touchstone/drive/driven_bodies.h>
+#include <touchstone/drive/driven_turns.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
@@ -164,6 +165,8 @@ namespace Touchstone
                      const NewtonParameters &parameters,
                      const Newton::Observer &observer)
   {
+    if (const std::string text = turns_too_far(contact, committed_time, t); !text.empty())
+      throw TurnsTooFar(text, t - committed_time);
     begin_step(t);
     const Newton newton(parameters);
     const Vector first_guess(u);

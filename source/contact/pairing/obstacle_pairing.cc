@@ -155,6 +155,12 @@ namespace Touchstone
         return free.after(latest[0].motion);
       }
 
+      double
+      driven_turn(const double from, const double to) const override
+      {
+        return angle ? angle->value(Point<dim>(), to) - angle->value(Point<dim>(), from) : 0.;
+      }
+
       void
       set_free_motion(const ToolMotion &of_forces) override
       {

@@ -209,6 +209,13 @@ namespace Touchstone
       return {};
     }
 
+    /** @brief How far formulas turn a rigid master from one time to another; degrees. */
+    virtual double
+    driven_turn(double /*from*/, double /*to*/) const
+    {
+      return 0.;
+    }
+
     /** @brief Forces have moved a rigid master so far beside what drives it. */
     virtual void
     set_free_motion(const ToolMotion &)
