@@ -204,7 +204,8 @@ namespace Touchstone
           {
             const Behind at     = smallest(gap, farthest);
             double       counts = -gap(at);
-            if (counts > 0.)
+            // Behind an edge of the body lies another face of it, which may touch the obstacle.
+            if (counts > Tolerances::touching * size)
               counts += at[2];
             double taken_out = 0.;
             if (part_adjusted > 0.)

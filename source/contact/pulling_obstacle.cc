@@ -83,8 +83,9 @@ namespace Touchstone
           text, sizeof(text), "(%.3g, %.3g, %.3g)", worst[0] + 0., worst[1] + 0., worst[2] + 0.);
         return "contact pair '" + pair.parameters().name + "': the obstacle pulls at '" +
                pair.parameters().slave_body + "' at " + text +
-               ", as it has come so far in within one step that the surface on its other side is "
-               "the nearest one: make smaller steps";
+               ", as it has come so far in, within one step or before the first, that the surface on "
+               "its other side is the nearest one: make smaller steps, place it outside, or refine the "
+               "slave surface if it is smaller than its faces";
       }
     return "";
   }

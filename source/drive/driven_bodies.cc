@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/drive/carried_bodies.h>
 #include <touchstone/drive/driven_bodies.h>
+#include <touchstone/drive/translations.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <array>
@@ -18,33 +19,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Number of values of a body: sum of d (x) d, of d times the missing displacement. */
-    constexpr unsigned int n_sums = dim * dim + dim;
-
-    /** The translation v of least length with d . v closest to what is missing in the directions d
-     * of the supports; that along directions in which nothing is prescribed is zero. */
-    Tensor<1, dim>
-    closest_translation(const double *sums)
-    {
-      SymmetricTensor<2, dim> directions;
-      Tensor<1, dim>          missing;
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          missing[i] = sums[dim * dim + i];
-          for (unsigned int j = 0; j <= i; ++j)
-            directions[i][j] = sums[dim * i + j];
-        }
-      constexpr double prescribed = 1e-10;
-      const auto       axes       = eigenvectors(directions);
-      Tensor<1, dim>   result;
-      for (const auto &[value, axis] : axes)
-        if (value > prescribed * axes[0].first)
-          result += (axis * missing) / value * axis;
-      return result;
-    }
-
-
-
     /** What a support misses at time @p t in the displacement @p u, length. */
     double
     missing(const BoundaryConditions::Prescribed &support, const double t, const Vector &u)
@@ -65,22 +39,13 @@ namespace Touchstone
                    const double              t,
                    const Vector             &u)
     {
-      std::vector<double> sums(n_sums * solid.n_bodies());
+      Translations translations(solid.n_bodies());
       for (const auto &support : conditions.prescribed_directions())
-        {
-          double *const sum  = &sums[n_sums * support.body];
-          const double  miss = missing(support, t, u);
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              for (unsigned int j = 0; j < dim; ++j)
-                sum[dim * i + j] += support.direction[i] * support.direction[j];
-              sum[dim * dim + i] += support.direction[i] * miss;
-            }
-        }
-      Utilities::MPI::sum(sums, solid.communicator, sums);
+        translations.add(support.body, support.direction, missing(support, t, u));
+      translations.complete(solid.communicator);
       std::vector<Tensor<1, dim>> motions;
       for (unsigned int body = 0; body < solid.n_bodies(); ++body)
-        motions.push_back(closest_translation(&sums[n_sums * body]));
+        motions.push_back(translations.closest(body));
       // What supports of a body prescribe at most, and what they miss before and after.
       std::vector<double> largest(3 * solid.n_bodies());
       for (const auto &support : conditions.prescribed_directions())
@@ -105,25 +70,50 @@ namespace Touchstone
 
 
 
-    /** The motion of what a row faces. */
-    Tensor<1, dim>
-    motion_faced(const ContactRow &row, const std::vector<Tensor<1, dim>> &motions)
+    /** For each body whether any displacement of it is prescribed, or springs hold it. Collective.
+     */
+    std::vector<int>
+    supported_bodies(const BoundaryConditions &conditions, const Solid &solid)
     {
-      return row.on_obstacle() ? Tensor<1, dim>() : motions[row.master_body];
+      std::vector<int> result(solid.n_bodies());
+      for (const auto &support : conditions.prescribed_directions())
+        result[support.body] = 1;
+      Utilities::MPI::max(result, solid.communicator, result);
+      return result;
+    }
+
+
+
+    /** The motion of what a row faces; none of an obstacle where the guess leaves the body. */
+    Tensor<1, dim>
+    motion_faced(const Contact                     &contact,
+                 const ContactRow                  &row,
+                 const std::vector<Tensor<1, dim>> &motions,
+                 const double                       t)
+    {
+      if (!row.on_obstacle())
+        return motions[row.master_body];
+      return motions[row.body].norm_square() > 0. ? motion_of_obstacle(contact, row, t)
+                                                  : Tensor<1, dim>();
     }
 
 
 
     /** Let bodies stay that would be torn from what they are tied to. Collective. */
     void
-    keep_tied_together(const Contact &contact, std::vector<Tensor<1, dim>> &motions)
+    keep_tied_together(const Contact &contact, const double t, std::vector<Tensor<1, dim>> &motions)
     {
+      constexpr double round_off = 1e-10;
+      const auto       differ    = [](const Tensor<1, dim> &a, const Tensor<1, dim> &b) {
+        return (a - b).norm() > round_off * std::max(a.norm(), b.norm());
+      };
       std::vector<int> stay(motions.size());
       do
         {
           std::fill(stay.begin(), stay.end(), 0);
           for (const ContactRow &row : contact.rows())
-            if (row.tied && row.has_partner && motions[row.body] != motion_faced(row, motions))
+            if (row.tied && row.has_partner &&
+                differ(motions[row.body], motion_faced(contact, row, motions, t)))
               {
                 stay[row.body] = 1;
                 if (!row.on_obstacle())
@@ -141,13 +131,16 @@ namespace Touchstone
 
     /** By how much motions close gaps beyond zero, in sizes of the slave faces. Collective. */
     double
-    deepest_overlap(const Contact &contact, const std::vector<Tensor<1, dim>> &motions)
+    deepest_overlap(const Contact                     &contact,
+                    const std::vector<Tensor<1, dim>> &motions,
+                    const double                       t)
     {
       double result = 0.;
       for (const ContactRow &row : contact.rows())
         if (row.has_partner)
           {
-            const Tensor<1, dim> closing = motion_faced(row, motions) - motions[row.body];
+            const Tensor<1, dim> closing =
+              motion_faced(contact, row, motions, t) - motions[row.body];
             result = std::max(result, (closing * row.normal - std::max(row.gap, 0.)) / row.size);
           }
       return Utilities::MPI::max(result, contact.communicator());
@@ -164,11 +157,12 @@ namespace Touchstone
                      Vector                   &u)
   {
     auto motions = driven_motions(conditions, solid, t, u);
-    keep_tied_together(contact, motions);
+    carry_bodies(contact, supported_bodies(conditions, solid), t, motions);
+    keep_tied_together(contact, t, motions);
     if (std::all_of(motions.begin(),
                     motions.end(),
                     [](const Tensor<1, dim> &motion) { return motion.norm_square() == 0.; }) ||
-        deepest_overlap(contact, motions) > 1.)
+        deepest_overlap(contact, motions, t) > 1.)
       return false;
     const auto bodies = bodies_of_unknowns(solid);
     for (std::size_t k = 0; k < bodies.size(); ++k)

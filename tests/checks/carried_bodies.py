@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A block that two jaws press, load and lift: it moves with them, whatever its weight, law, solver and steps."""
+# ctest: label = quick
+
+import csv
+
+from touchstone_test import below, check, finish, folder, relative, run
+
+JAWS = """
+set Bodies        = block
+set Obstacles     = left, right
+set Contact pairs = at left, at right
+set Probes        = middle
+subsection Body block
+  set Body force z = -20 * min(max(t - 1, 0), 1)
+  subsection Geometry
+    set Type         = box
+    set Lower corner = 0, 0, 0
+    set Upper corner = 1, 1, 1
+    set Cells        = 3, 3, 3
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+    set Law           = neo-Hookean
+  end
+end
+""" + "".join(f"""subsection Obstacle {side}
+  set Shape     = plane
+  set Point     = {point}, 0, 0
+  set Direction = {sign}1, 0, 0
+  set Motion x  = {sign}0.02 * min(t, 1)
+  set Motion z  = 0.5 * max(t - 2, 0)
+end
+subsection Contact pair at {side}
+  set Slave body       = block
+  set Slave boundaries = {side}
+  set Obstacle         = {side}
+  set Behaviour        = coulomb
+  subsection Friction
+    set Coefficient = 0.3
+  end
+end
+""" for side, point, sign in (("left", 0, ""), ("right", 1, "-"))) + """subsection Probe middle
+  set Body  = block
+  set Point = 0.5, 0.5, 0.5
+end
+subsection Load stepping
+  set End time = 3
+  set Steps    = 12
+end
+"""
+(folder / "jaws.prm").write_text(JAWS, encoding="utf-8")
+SOLVER, ENFORCEMENT = "Linear solver/Type", "Contact/Enforcement"
+for name, settings, ranks in (
+        ("default", {}, 1), ("ranks", {}, 2), ("gmres", {SOLVER: "Belos GMRES"}, 1),
+        ("multipliers", {ENFORCEMENT: "lagrange multipliers"}, 1), ("augmented", {ENFORCEMENT: "augmented lagrange"}, 1),
+        ("light", {"Body block/Body force z": "-min(max(t - 1, 0), 1)"}, 1), ("steps", {"Load stepping/Steps": 24}, 1)):
+    lifted = run(name, "jaws.prm", settings, ranks=ranks)
+    rows = csv.DictReader((lifted.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
+    height = {float(row["time[time]"]): float(row["displacement_z[length]"]) for row in rows}
+    below(f"{lifted}: lifted by 0.5", relative(height[3.] - height[2.], 0.5), 1e-6)
+    check("trying again" not in lifted.log, f"{lifted}: a step was made again")
+finish()
