@@ -48,12 +48,12 @@ namespace Touchstone
         const Tensor<2, dim> turn = now.turn * transpose(then.turn);
         along                     = now.shift - turn * then.shift;
         Tensor<1, dim> twice_sine;
-        twice_sine[0]     = turn[2][1] - turn[1][2];
-        twice_sine[1]     = turn[0][2] - turn[2][0];
-        twice_sine[2]     = turn[1][0] - turn[0][1];
-        const double sine = 0.5 * twice_sine.norm();
-        // Half a turn has no sine, and which way round it goes is not known.
-        constexpr double hardly = 1e-6;
+        twice_sine[0]           = turn[2][1] - turn[1][2];
+        twice_sine[1]           = turn[0][2] - turn[2][0];
+        twice_sine[2]           = turn[1][0] - turn[0][1];
+        const double     sine   = 0.5 * twice_sine.norm();
+        constexpr double hardly = 1e-9;
+        known                   = sine >= hardly || trace(turn) > 0.;
         if (sine < hardly)
           return;
         angle                     = std::atan2(sine, 0.5 * (trace(turn) - 1.));
@@ -83,6 +83,9 @@ namespace Touchstone
                                        cross_product_3d(to - centre, axis).norm());
         return (to - from - along).norm() + angle * radius;
       }
+
+      /** Half a turn has no sine, and which way round it went is not known. */
+      bool known = true;
 
     private:
       double         angle = 0.;
@@ -145,7 +148,7 @@ namespace Touchstone
       }
 
     private:
-      /** What is thinner by this, beside the length of the way, may be missed. */
+      /** What is thinner than the length of the way divided by this may be missed. */
       static constexpr double most_steps = 4096.;
       /** Cosine of 120 degrees. */
       static constexpr double opposite = -0.5;
@@ -205,6 +208,8 @@ namespace Touchstone
       const StepOfObstacle motion(committed_motion(contact, pair),
                                   pair.pairing().motion(contact.time()));
       std::vector<Passage> found(1);
+      if (!motion.known)
+        return found.front();
       for (const Face &face : pair.slave().owned_faces())
         {
           const AnalyticSurface *const exact = pair.slave().exact_surface(face);

@@ -48,9 +48,9 @@ namespace Touchstone
         // A step of the plan ends exactly at its end: neither beyond it, nor just before it, which
         // would leave a step of the size of round-off.
         const double stop_at = step_end(at.time), nominal = plan.nominal_step(at.time);
-        at.size = std::min(at.size, stop_at - at.time);
-        const double next =
-          stop_at - at.time - part * at.size < 1e-9 * nominal ? stop_at : at.time + part * at.size;
+        at.size           = std::min(at.size, stop_at - at.time);
+        const double next = problem->end_of_step(
+          stop_at - at.time - part * at.size < 1e-9 * nominal ? stop_at : at.time + part * at.size);
         // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
           at.step - 1 + static_cast<unsigned int>(std::ceil((stop_at - at.time) / at.size - 1e-9)) +
@@ -228,7 +228,8 @@ namespace Touchstone
   bool
   Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
   {
-    if (const std::string how = problem->next_attempt(); !failure.names_its_cause() && !how.empty())
+    if (const std::string how = problem->next_attempt();
+        failure.shorter_step_may_help() && !how.empty())
       {
         const std::string reason = describe(failure, /*repeated=*/false);
         problem->rollback();

@@ -160,7 +160,8 @@ namespace Touchstone
     if (const std::string text = passed_obstacle(contact, committed_u); !text.empty())
       throw PassedObstacle(text, time - committed_time);
     // Where a body is that contact holds may be wrong long before the end of the run.
-    if (!integration->dynamic() && !scene.refinement.active())
+    if (!integration->dynamic() &&
+        (!scene.refinement.active() || scene.refinement.cycles_per_step == 0))
       if (const std::string text = sunk_in(contact, system->unsupported_bodies()); !text.empty())
         throw UnresolvedContactFailure(text);
   }

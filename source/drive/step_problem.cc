@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/points_in_faces.h>
+#include <touchstone/drive/carried_bodies.h>
 #include <touchstone/drive/driven_bodies.h>
 #include <touchstone/drive/driven_turns.h>
 #include <touchstone/drive/explicit_step.h>
@@ -143,8 +144,14 @@ namespace Touchstone
     pretension.begin_step(t);
     tools.begin_step(t);
     integration->begin_step(time, u);
-    guessed = integration->follows_supports() &&
-              move_driven_bodies(boundary_conditions, contact, solid, time, u);
+    guessed = false;
+    if (integration->follows_supports())
+      {
+        guessed                 = move_driven_bodies(boundary_conditions, contact, solid, time, u);
+        const StepOfBodies step = {
+          boundary_conditions, contact, solid, system->unsupported_bodies(), committed_u, time};
+        guessed = carry_bodies(step, u) || guessed;
+      }
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
@@ -165,8 +172,6 @@ namespace Touchstone
                      const NewtonParameters &parameters,
                      const Newton::Observer &observer)
   {
-    if (const std::string text = turns_too_far(contact, committed_time, t); !text.empty())
-      throw TurnsTooFar(text, t - committed_time);
     begin_step(t);
     const Newton newton(parameters);
     const Vector first_guess(u);
@@ -198,6 +203,14 @@ namespace Touchstone
         strayed.begin_round();
       }
     return n_iterations;
+  }
+
+
+
+  double
+  StepProblem::end_of_step(const double t) const
+  {
+    return end_of_turn(contact, committed_time, t);
   }
 
 

@@ -55,10 +55,66 @@ SOLVER, ENFORCEMENT = "Linear solver/Type", "Contact/Enforcement"
 for name, settings, ranks in (
         ("default", {}, 1), ("ranks", {}, 2), ("gmres", {SOLVER: "Belos GMRES"}, 1),
         ("multipliers", {ENFORCEMENT: "lagrange multipliers"}, 1), ("augmented", {ENFORCEMENT: "augmented lagrange"}, 1),
+        ("linear", {"Body block/Material/Law": "linear elastic"}, 1),
+        ("half", {"Body block/Symmetry": "front", "Body block/Geometry/Cells": "3, 2, 3"}, 1),
         ("light", {"Body block/Body force z": "-min(max(t - 1, 0), 1)"}, 1), ("steps", {"Load stepping/Steps": 24}, 1)):
     lifted = run(name, "jaws.prm", settings, ranks=ranks)
     rows = csv.DictReader((lifted.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
     height = {float(row["time[time]"]): float(row["displacement_z[length]"]) for row in rows}
     below(f"{lifted}: lifted by 0.5", relative(height[3.] - height[2.], 0.5), 1e-6)
     check("trying again" not in lifted.log, f"{lifted}: a step was made again")
+
+# A punch that pushes a block over a floor without friction, and goes back: the block stays where it is.
+PUNCH = """
+set Bodies        = block
+set Obstacles     = floor, punch
+set Contact pairs = on floor, at punch
+set Probes        = middle
+subsection Body block
+  set Body force z = -1
+  subsection Geometry
+    set Type         = box
+    set Lower corner = 0, 0, 0
+    set Upper corner = 1, 1, 1
+    set Cells        = 3, 3, 3
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+    set Law           = neo-Hookean
+  end
+end
+subsection Obstacle floor
+  set Shape = plane
+end
+subsection Contact pair on floor
+  set Slave body       = block
+  set Slave boundaries = bottom
+  set Obstacle         = floor
+end
+subsection Obstacle punch
+  set Shape     = plane
+  set Direction = 1, 0, 0
+  set Motion x  = 0.2 * (min(t, 1) - max(t - 1, 0))
+end
+subsection Contact pair at punch
+  set Slave body       = block
+  set Slave boundaries = left
+  set Obstacle         = punch
+end
+subsection Probe middle
+  set Body  = block
+  set Point = 0.5, 0.5, 0.5
+end
+subsection Load stepping
+  set End time = 2
+  set Steps    = 4
+end
+"""
+(folder / "punch.prm").write_text(PUNCH, encoding="utf-8")
+pushed = run("pushed", "punch.prm")
+rows = csv.DictReader((pushed.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
+at = {float(row["time[time]"]): float(row["displacement_x[length]"]) for row in rows}
+below("the block is pushed", relative(at[1.], 0.2), 1e-3)
+below("the block stays", relative(at[2.], at[1.]), 1e-3)
 finish()

@@ -57,7 +57,11 @@ for angle, steps in (9, 9), (360, 6), (-360, 4), (1080, 3):
     below(f"{result}: pull over pressure", relative(abs(pull / press), fine), 1e-2)
     check((pull < 0) == (angle > 0), f"{result}: pulls the other way")
 
-# Without cuts it is refused, with the reason.
-refused = run("refused", "rod.prm", {"Load stepping/Maximum cuts": 0}, fails=True)
-check("turns by 360 degrees in the step" in refused.summary["failure"], f"{refused}: {refused.summary['failure']}")
+# It takes no cuts: these are for steps that do not converge.
+uncut = run("uncut", "rod.prm", {"Load stepping/Maximum cuts": 0})
+below("moment without cuts", relative(uncut.column("joint: moment z")[-1], moments[0]), 1e-8)
+# What nothing touches may turn by any angle, and jump.
+apart = run("apart", tests / "turning_roller.prm", {"Obstacle roller/Motion z": "1", STEPS: 2,
+                                                   "Obstacle roller/Rotate angle": "if(t < 1.5, 0, 170)"})
+check(len(apart.column("time")) <= 3, f"{apart}: steps that nothing needs")
 finish()

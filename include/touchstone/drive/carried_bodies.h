@@ -4,32 +4,43 @@
 #define touchstone_drive_carried_bodies_h
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/solid/boundary_conditions.h>
 
-#include <vector>
+#include <set>
 
 namespace Touchstone
 {
-  /** @brief What the obstacle that a row faces does from the start of the step to time @p t, at the
-   * contact point; length. */
-  dealii::Tensor<1, dim>
-  motion_of_obstacle(const Contact &contact, const ContactRow &row, double t);
+  /** @brief What carry_bodies() has to know of a step. */
+  struct StepOfBodies
+  {
+    const BoundaryConditions &conditions;
+    /** At the start of the step. */
+    const Contact &contact;
+    const Solid   &solid;
+    /** Those that supports alone leave a motion. */
+    const std::set<unsigned int> &unsupported;
+    /** Displacement at the start of the step, owned dofs. */
+    const Vector &committed_u;
+    /** At its end. */
+    double time;
+  };
 
   /**
-   * @brief Let bodies without prescribed displacements move with what they touch, if a translation
-   * does that: along the normals of rows that slide or have no friction, in all directions where
-   * they stick or are tied (doc/theory.md 5, "First guess").
+   * @brief Make a first guess of a step: move bodies that contact holds with what they touch, if a
+   * translation does that (doc/theory.md 5, "First guess").
    *
-   * Of bodies that hold each other nothing is known, and they stay. Collective.
+   * It is the one that comes closest to the motions of obstacles and driven bodies along the
+   * normals of rows that press and slide or have no friction, and in all directions where they
+   * stick or are tied; and to what is prescribed of the body. Bodies stay that have another guess
+   * already, that touch a body of which nothing is known, that something they touch goes away from,
+   * or that no translation brings to all of this within a hundredth of a slave face. Collective.
    *
-   * @param contact   At the start of the step.
-   * @param supported By number of the body: 1 if any displacement of it is prescribed.
-   * @param motions   Of the bodies until time @p t, length: those of such bodies are set.
+   * @param u Guess for the displacement at the end of the step, in which driven bodies are where
+   *          their supports move them; owned dofs, length.
+   * @return whether any was moved.
    */
-  void
-  carry_bodies(const Contact                       &contact,
-               const std::vector<int>              &supported,
-               double                               t,
-               std::vector<dealii::Tensor<1, dim>> &motions);
+  bool
+  carry_bodies(const StepOfBodies &step, Vector &u);
 } // namespace Touchstone
 
 #endif

@@ -8,10 +8,13 @@
 
 namespace Touchstone
 {
+  /** @brief What a support misses at time @p t in the displacement @p u, owned dofs; length. */
+  double
+  missing_displacement(const BoundaryConditions::Prescribed &support, double t, const Vector &u);
+
   /**
    * @brief Make a first guess of a step: move those bodies that a translation brings to all of
-   * their prescribed displacements at time @p t, and that nothing else holds; and bodies without
-   * any that what they touch, and stick or are tied to, carries along by a translation.
+   * their prescribed displacements at time @p t, and that nothing else holds.
    *
    * Contact is then looked for where these bodies will be and not where they come from: where they
    * slide to other nodes, the first iteration has the right active set. Stresses stay as they are.

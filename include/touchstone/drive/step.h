@@ -134,6 +134,14 @@ namespace Touchstone
     virtual std::vector<std::string>
     start() = 0;
 
+    /** @brief Where a step that is to end at time @p t must end at the latest, for what is known
+     * before it is solved. Collective. */
+    virtual double
+    end_of_step(const double t) const
+    {
+      return t;
+    }
+
     /** @brief Go from the committed state to time @p t, without keeping it. @return the number of
      * iterations. @throws NonConvergence */
     virtual unsigned int

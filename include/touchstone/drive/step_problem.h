@@ -33,6 +33,8 @@ namespace Touchstone
     start() override;
     unsigned int
     solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) override;
+    double
+    end_of_step(double t) const override;
     StepFindings
     findings() const override;
     StepDifficulty
