@@ -335,9 +335,8 @@ end
     };
     conditions.external_force(0., committed, external);
     solid.internal_force(committed, internal);
-    integration->start(external,
-                       internal,
-                       {[](Touchstone::Vector &) {}, [](Touchstone::Vector &) {}});
+    const auto nothing = [](Touchstone::Vector &) {};
+    integration->start(external, internal, {nothing, nothing, nothing});
     Touchstone::Vector u(committed);
     integration->begin_step(0.05, u);
     u += scatter(0.03, 1);

@@ -70,6 +70,28 @@ namespace Touchstone
 
 
 
+  // What supports must add to the forces for the nodes to have the acceleration a: the first step
+  // does work with it, as with all forces at its beginning.
+  Vector
+  Dynamics::support_force(const Vector   &external,
+                          const Vector   &internal,
+                          const Supports &supports) const
+  {
+    Vector result(external), drag(v), rest(external);
+    mass.multiply(a, result);
+    damping_force(v, drag);
+    result += drag;
+    result += internal;
+    result -= external;
+    solid.condense(result);
+    rest = result;
+    supports.remove_force(rest);
+    result -= rest;
+    return result;
+  }
+
+
+
   void
   Dynamics::start(const Vector &external, const Vector &internal, const Supports &supports)
   {
@@ -89,7 +111,9 @@ namespace Touchstone
     supports.remove_force(force);
     for (std::size_t i = 0; i < force.locally_owned_size(); ++i)
       a.begin()[i] = mass_of_node.begin()[i] > 0. ? force.begin()[i] / mass_of_node.begin()[i] : 0.;
+    supports.set_acceleration(a);
     solid.hanging.distribute(a);
+    old.support = support_force(external, internal, supports);
     // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
     // steps are compared with.
     old.external = old.load = external;

@@ -108,26 +108,31 @@ namespace Touchstone
         solid.internal_force(u, internal);
         solid.commit();
         system->prescribe(0., u);
-        // The velocity that a support prescribes is the difference quotient of its displacement
-        // over a time that is short compared with a step. Components across the prescribed
-        // direction keep their initial velocity.
-        const double instant  = 1e-6 * scene.load_stepping.nominal_step(0.);
-        const auto   set_rate = [&](Vector &velocity) {
-          const auto now  = boundary_conditions.displacements(0.),
-                     soon = boundary_conditions.displacements(instant);
+        // The velocity and acceleration that a support prescribes are difference quotients of its
+        // displacement over a time that is short compared with a step. Components across the
+        // prescribed direction keep what they have.
+        const double step     = scene.load_stepping.nominal_step(0.);
+        const auto   set_rate = [&](Vector &rate, const unsigned int order, const double instant) {
+          const auto now   = boundary_conditions.displacements(0.),
+                     soon  = boundary_conditions.displacements(instant),
+                     later = boundary_conditions.displacements(2. * instant);
           for (std::size_t k = 0; k < now.size(); ++k)
             {
-              double miss = (soon[k].value - now[k].value) / instant;
+              double miss = order == 1 ? (soon[k].value - now[k].value) / instant
+                                         : (later[k].value - 2. * soon[k].value + now[k].value) /
+                                           (instant * instant);
               for (unsigned int d = 0; d < dim; ++d)
-                miss -= now[k].direction[d] * velocity(dim * now[k].node + d);
+                miss -= now[k].direction[d] * rate(dim * now[k].node + d);
               for (unsigned int d = 0; d < dim; ++d)
-                velocity(dim * now[k].node + d) += miss * now[k].direction[d];
+                rate(dim * now[k].node + d) += miss * now[k].direction[d];
             }
-          velocity.compress(VectorOperation::add);
+          rate.compress(VectorOperation::add);
         };
-        integration->start(external, internal, {set_rate, [&](Vector &force) {
-                                                  system->remove_supported(force);
-                                                }});
+        integration->start(external,
+                           internal,
+                           {[&](Vector &velocity) { set_rate(velocity, 1, 1e-6 * step); },
+                            [&](Vector &acceleration) { set_rate(acceleration, 2, 1e-3 * step); },
+                            [&](Vector &force) { system->remove_supported(force); }});
       }
     return start_report(contact);
   }

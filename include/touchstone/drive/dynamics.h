@@ -140,6 +140,9 @@ namespace Touchstone
      */
     void
     lose_rebound(const StepForces &forces, Energies &energies);
+    /** Of the supports at time 0, with the acceleration there. */
+    Vector
+    support_force(const Vector &external, const Vector &internal, const Supports &supports) const;
     /** C times a velocity. */
     void
     damping_force(const Vector &velocity, Vector &force) const;

@@ -102,12 +102,12 @@ namespace Touchstone
     initial_displacement() const = 0;
 
     /**
-     * @brief Operations with the supports at time 0: set the prescribed components of a velocity,
-     * and set those of a force to zero.
+     * @brief Operations with the supports at time 0: set the prescribed components of a velocity
+     * and of an acceleration, and set those of a force to zero.
      */
     struct Supports
     {
-      std::function<void(Vector &)> set_velocity, remove_force;
+      std::function<void(Vector &)> set_velocity, set_acceleration, remove_force;
     };
 
     /** @brief Take the state at time 0 with the forces there; nothing has ghosts. */
