@@ -6,6 +6,7 @@
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/place_in_words.h>
 #include <touchstone/contact/search/search.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -29,16 +30,11 @@ namespace Touchstone
     std::string
     text(const ContactPairParameters &pair, const MissedContact::Place &place)
     {
-      char of[20], at[80];
+      char of[20];
       std::snprintf(of, sizeof(of), "%.3g", place.depth);
-      // Components that are only round-off are zero.
-      double r[dim];
-      for (unsigned int d = 0; d < dim; ++d)
-        r[d] = std::abs(place.x[d]) > 1e-4 * place.x.norm() ? place.x[d] : 0.;
-      std::snprintf(at, sizeof(at), "(%.3g, %.3g, %.3g)", r[0], r[1], r[2]);
       return "contact pair '" + pair.name + "': " +
              (pair.obstacle.empty() ? "'" + pair.master_body : "the obstacle '" + pair.obstacle) +
-             "' reaches " + of + " into '" + pair.slave_body + "' at " + at;
+             "' reaches " + of + " into '" + pair.slave_body + "' at " + place_in_words(place.x);
     }
 
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <optional>
 
 // Contact that is narrower than the slave faces, beside slave nodes that carry a force.
@@ -60,9 +61,13 @@ namespace Touchstone
 
 
 
-    /** Zero for pairs to which this does not apply. Collective. */
+    /** Zero for pairs to which this does not apply. @param springs What springs have left.
+     * Collective.
+     */
     Narrowness
-    narrowness(const Contact &contact, const ContactPair &pair)
+    narrowness(const Contact                                &contact,
+               const ContactPair                            &pair,
+               const std::map<std::string, LeftPenetration> &springs)
     {
       Narrowness result;
       // Points inside faces have a warning of their own in the step in which they carry. With small
@@ -76,7 +81,6 @@ namespace Touchstone
         return result;
       const auto [modulus, force] = modulus_and_force(contact, pair);
       // Springs leave as much everywhere.
-      const auto   springs = left_penetration(contact);
       const auto   of_pair = springs.find(pair.parameters().name);
       const double left    = of_pair == springs.end() ? 0. : of_pair->second.length;
       double       needed  = 0.;
@@ -128,10 +132,11 @@ namespace Touchstone
   narrow_contact(const Contact &contact)
   {
     NarrowContact result;
+    const auto    springs = left_penetration(contact);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair     = contact.pair(p);
-        const Narrowness   here     = narrowness(contact, pair);
+        const Narrowness   here     = narrowness(contact, pair, springs);
         const bool         of_nodes = pair.parameters().pairing.name == "pointwise",
                    narrow           = here.ratio > Tolerances::narrow_contact;
         if (!narrow && !(of_nodes && here.ratio > coarse_for_nodes))
@@ -152,12 +157,15 @@ namespace Touchstone
   std::string
   sunk_in(const Contact &contact, const std::set<unsigned int> &bodies)
   {
+    if (bodies.empty())
+      return "";
+    const auto springs = left_penetration(contact);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
         if (bodies.count(pair.slave_body()) == 0 && bodies.count(pair.master_body()) == 0)
           continue;
-        if (const Narrowness here = narrowness(contact, pair);
+        if (const Narrowness here = narrowness(contact, pair, springs);
             here.sunk && here.ratio > coarse_for_nodes)
           return in_words(pair.parameters(), *here.sunk, where_no_contact_lets_it_be);
       }

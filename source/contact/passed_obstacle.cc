@@ -3,15 +3,15 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/passed_obstacle.h>
+#include <touchstone/contact/place_in_words.h>
 #include <touchstone/contact/rigid_motion.h>
 #include <touchstone/contact/tolerances.h>
 #include <touchstone/mesh/rotation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <tuple>
 #include <vector>
 
 // Rows with an obstacle know where slave nodes are, not how they came there: a thin obstacle that
@@ -22,18 +22,11 @@ namespace Touchstone
 
   namespace
   {
-    /** A point that has gone through, and how deep within it was on its way. */
+    /** A point that has gone through, and how deep within the obstacle it was on its path. */
     struct Passage
     {
-      double     depth = 0.;
+      double     depth;
       Point<dim> x;
-
-      bool
-      operator<(const Passage &other) const
-      {
-        return std::make_tuple(depth, x[0], x[1], x[2]) <
-               std::make_tuple(other.depth, other.x[0], other.x[1], other.x[2]);
-      }
     };
 
 
@@ -45,19 +38,15 @@ namespace Touchstone
     public:
       StepOfObstacle(const RigidMotion &then, const RigidMotion &now)
       {
-        const Tensor<2, dim> turn = now.turn * transpose(then.turn);
-        along                     = now.shift - turn * then.shift;
-        Tensor<1, dim> twice_sine;
-        twice_sine[0]           = turn[2][1] - turn[1][2];
-        twice_sine[1]           = turn[0][2] - turn[2][0];
-        twice_sine[2]           = turn[1][0] - turn[0][1];
-        const double     sine   = 0.5 * twice_sine.norm();
+        const Tensor<2, dim> turn   = now.turn * transpose(then.turn);
+        along                       = now.shift - turn * then.shift;
+        const Tensor<1, dim> vector = rotation_vector(turn);
+        // Of less the axis would be lost in round-off.
         constexpr double hardly = 1e-9;
-        known                   = sine >= hardly || trace(turn) > 0.;
-        if (sine < hardly)
+        if (vector.norm() < hardly)
           return;
-        angle                     = std::atan2(sine, 0.5 * (trace(turn) - 1.));
-        axis                      = twice_sine / (2. * sine);
+        angle                     = vector.norm();
+        axis                      = vector / angle;
         const Tensor<1, dim> side = along - (along * axis) * axis;
         along -= side;
         centre = Point<dim>(0.5 * (side + cross_product_3d(axis, side) / std::tan(0.5 * angle)));
@@ -75,17 +64,14 @@ namespace Touchstone
         return centre + turn * (x - centre) + rest * along;
       }
 
-      /** A bound for the length of the way of a point as the obstacle sees it. */
+      /** An upper bound of the length of the path of a point relative to the obstacle. */
       double
-      length_of_way(const Point<dim> &from, const Point<dim> &to) const
+      length_of_path(const Point<dim> &from, const Point<dim> &to) const
       {
         const double radius = std::max(cross_product_3d(from - centre, axis).norm(),
                                        cross_product_3d(to - centre, axis).norm());
         return (to - from - along).norm() + angle * radius;
       }
-
-      /** Half a turn has no sine, and which way round it went is not known. */
-      bool known = true;
 
     private:
       double         angle = 0.;
@@ -96,21 +82,21 @@ namespace Touchstone
 
 
 
-    /** The straight way of a point in a step, past the obstacle as it moves. */
-    class Way
+    /** The straight path of a point in a step, past the obstacle as it moves. */
+    class Path
     {
     public:
-      Way(const Pairing        &obstacle,
-          const StepOfObstacle &motion,
-          const double          time,
-          const Point<dim>     &from,
-          const Point<dim>     &to)
+      Path(const Pairing        &obstacle,
+           const StepOfObstacle &motion,
+           const double          time,
+           const Point<dim>     &from,
+           const Point<dim>     &to)
         : obstacle(obstacle)
         , motion(motion)
         , time(time)
         , from(from)
         , to(to)
-        , length(motion.length_of_way(from, to))
+        , length(motion.length_of_path(from, to))
       {
       }
 
@@ -119,36 +105,36 @@ namespace Touchstone
       double
       depth_of_passage(const double size) const
       {
-        const double begin = distance(0.);
+        const double begin = relative(0.).distance, end = relative(1.).distance;
         // A point in contact may slide around an edge of the obstacle: the straight line between
         // its ends then cuts through the edge.
         const double least = size * (begin > Tolerances::touching * size ? Tolerances::touching
                                                                          : Tolerances::deep_edge);
         // Distances change by no more than the point moves, so it comes no deeper than that.
-        if (0.5 * (length - begin - distance(1.)) <= least)
+        if (0.5 * (length - begin - end) <= least)
           return 0.;
         double         deepest = 0., s = 0.;
-        Tensor<1, dim> way_in = normal(0.);
+        Tensor<1, dim> side_in = relative(0.).normal;
         while (s < 1.)
           {
-            const double here = distance(s);
-            if (here >= 0.)
+            const Relative here = relative(s);
+            if (here.distance >= 0.)
               {
-                if (deepest > least && goes_through(way_in, normal(s)))
+                if (deepest > least && goes_through(side_in, here.normal))
                   return deepest;
                 deepest = 0.;
                 // The side that is nearest before it comes in.
-                way_in = normal(s);
+                side_in = here.normal;
               }
-            deepest = std::max(deepest, -here);
+            deepest = std::max(deepest, -here.distance);
             // The surface is no nearer than that, and what matters is as wide as it is deep.
-            s += std::max({std::abs(here), least, length / most_steps}) / length;
+            s += std::max({std::abs(here.distance), least, length / most_steps}) / length;
           }
-        return deepest > least && goes_through(way_in, normal(1.)) ? deepest : 0.;
+        return deepest > least && goes_through(side_in, relative(1.).normal) ? deepest : 0.;
       }
 
     private:
-      /** What is thinner than the length of the way divided by this may be missed. */
+      /** What is thinner than the length of the path divided by this may be missed. */
       static constexpr double most_steps = 4096.;
       /** Cosine of 120 degrees. */
       static constexpr double opposite = -0.5;
@@ -167,20 +153,19 @@ namespace Touchstone
         return in * out < opposite;
       }
 
-      Point<dim>
-      at(const double s) const
+      /** Signed distance from the obstacle, and the normal of the nearest point of it. */
+      struct Relative
       {
-        return motion.at_end(from + s * (to - from), s);
-      }
-      double
-      distance(const double s) const
+        double         distance;
+        Tensor<1, dim> normal;
+      };
+
+      /** After the part @p s of the step. */
+      Relative
+      relative(const double s) const
       {
-        return obstacle.distance(at(s), time);
-      }
-      Tensor<1, dim>
-      normal(const double s) const
-      {
-        return obstacle.at(at(s), time)->normal;
+        const PointContact there = *obstacle.at(motion.at_end(from + s * (to - from), s), time);
+        return {there.gap_vector * there.normal, there.normal};
       }
     };
 
@@ -200,16 +185,14 @@ namespace Touchstone
 
 
 
-    /** The deepest of a pair; zero deep if there is none. Collective. */
-    Passage
-    deepest_passage(const Contact &contact, const ContactPair &pair, const Vector &committed)
+    /** Of the slave faces of a pair, of all ranks. Collective. */
+    std::vector<Passage>
+    passages(const Contact &contact, const ContactPair &pair, const Vector &committed)
     {
       const Vector         before = contact.with_ghosts(committed);
       const StepOfObstacle motion(committed_motion(contact, pair),
                                   pair.pairing().motion(contact.time()));
-      std::vector<Passage> found(1);
-      if (!motion.known)
-        return found.front();
+      std::vector<Passage> found;
       for (const Face &face : pair.slave().owned_faces())
         {
           const AnalyticSurface *const exact = pair.slave().exact_surface(face);
@@ -221,14 +204,13 @@ namespace Touchstone
               {
                 const MeasuredFace::Xi xi = {{a, b}};
                 const Point<dim>       to = evaluate(end, exact, xi).x;
-                const Way              way(
+                const Path             path(
                   pair.pairing(), motion, contact.time(), evaluate(start, exact, xi).x, to);
-                found.front() = std::max(found.front(), Passage{way.depth_of_passage(size), to});
+                if (const double depth = path.depth_of_passage(size); depth > 0.)
+                  found.push_back({depth, to});
               }
         }
-      // Of equally deep ones that with the largest coordinates: the same on any partition.
-      const std::vector<Passage> all = gather_all(found, contact.communicator());
-      return *std::max_element(all.begin(), all.end());
+      return gather_all(found, contact.communicator());
     }
   } // namespace
 
@@ -242,19 +224,13 @@ namespace Touchstone
         const ContactPair &pair = contact.pair(p);
         if (pair.master() || pair.tied())
           continue;
-        const Passage worst = deepest_passage(contact, pair, committed);
-        if (worst.depth == 0.)
+        std::vector<Passage> found = passages(contact, pair, committed);
+        if (found.empty())
           continue;
-        // Components that are round-off are none.
-        constexpr double shown = 1e-4;
-        double           x[dim];
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = std::abs(worst.x[d]) > shown * worst.x.norm() ? worst.x[d] : 0.;
-        char where[80];
-        std::snprintf(where, sizeof(where), "(%.3g, %.3g, %.3g)", x[0], x[1], x[2]);
+        sort_by_depth(found, [](const Passage &passage) { return passage; });
         return "contact pair '" + pair.parameters().name + "': '" + pair.parameters().slave_body +
                "' has passed through the obstacle '" + pair.parameters().obstacle +
-               "' within one step, with a point that is at " + where +
+               "' within one step, with a point that is at " + place_in_words(found.front().x) +
                " now: make smaller steps, or refine the slave surface if the obstacle is smaller "
                "than its faces";
       }

@@ -110,11 +110,10 @@ namespace Touchstone
      * no other one would carry: it stays until it opens, or its nodes carry the force. Collective.
      */
     std::vector<MaterialPoint>
-    staying(const Contact &contact, const ContactPair &pair)
+    staying(const CarryingRows &rows, const Contact &contact, const ContactPair &pair)
     {
       if (!contact.solid_model().has_history())
         return {};
-      const CarryingRows               rows(contact);
       const std::vector<MaterialPoint> points = carrying(rows, pair, contact.communicator());
       std::vector<int>                 at_node(points.size(), 0);
       for (const ContactRow &row : pair.rows())
@@ -139,9 +138,10 @@ namespace Touchstone
         , pair(pair)
         , flags(slave_flags(contact, pair))
         , points(pair.points())
-        , of_last_step(carrying(CarryingRows(contact), pair, contact.communicator()))
-        , stayed(staying(contact, pair))
       {
+        const CarryingRows rows(contact);
+        of_last_step = carrying(rows, pair, contact.communicator());
+        stayed       = staying(rows, contact, pair);
       }
 
       /** Add or move points. @return whether any has been. Collective. */
@@ -161,9 +161,9 @@ namespace Touchstone
       const Vector               flags;
       std::vector<MaterialPoint> points;
       /** Points that carried a force when the last step ended. */
-      const std::vector<MaterialPoint> of_last_step;
+      std::vector<MaterialPoint> of_last_step;
       /** Those of them that the step began with. */
-      const std::vector<MaterialPoint> stayed;
+      std::vector<MaterialPoint> stayed;
 
       /** No points but these. */
       bool
@@ -356,7 +356,7 @@ namespace Touchstone
   {
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); pair.takes_points() && !pair.points().empty())
-        contact.set_points(p, staying(contact, pair));
+        contact.set_points(p, staying(CarryingRows(contact), contact, pair));
   }
 
 

@@ -19,28 +19,6 @@ namespace Touchstone
   namespace
   {
     constexpr double degrees = 180. / numbers::PI;
-
-    /** The vector along the axis of a turn whose length is its angle in radians, at most pi. */
-    Tensor<1, dim>
-    rotation_vector(const Tensor<2, dim> &turn)
-    {
-      Tensor<1, dim> axis; // times twice the sine
-      for (unsigned int d = 0; d < dim; ++d)
-        axis[d] = turn[(d + 2) % dim][(d + 1) % dim] - turn[(d + 1) % dim][(d + 2) % dim];
-      const double sine = 0.5 * axis.norm(), cosine = 0.5 * (trace(turn) - 1.);
-      if (sine > 1e-7)
-        return std::atan2(sine, cosine) / axis.norm() * axis;
-      if (cosine > 0.)
-        return 0.5 * axis;
-      // Half a turn: turn + 1 is twice the axis times itself.
-      unsigned int largest = 0;
-      for (unsigned int d = 1; d < dim; ++d)
-        if (turn[d][d] > turn[largest][largest])
-          largest = d;
-      Tensor<1, dim> along = turn[largest];
-      along[largest] += 1.;
-      return numbers::PI / along.norm() * along;
-    }
   } // namespace
 
 

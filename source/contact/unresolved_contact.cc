@@ -6,6 +6,7 @@
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/surface_cone.h>
+#include <touchstone/contact/place_in_words.h>
 #include <touchstone/contact/search/face_exchange.h>
 #include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
@@ -80,19 +81,6 @@ namespace Touchstone
     {
       // The diagonal over the square root of two: the side of a square face.
       return face.position(0).distance(face.position(face.n_nodes() - 1)) / std::sqrt(2.);
-    }
-
-    /** A position for messages, with components that are only round-off set to zero. */
-    std::string
-    at(const Point<dim> &x)
-    {
-      constexpr double shown = 1e-4; // of the distance from the origin
-      double           r[dim];
-      for (unsigned int d = 0; d < dim; ++d)
-        r[d] = std::abs(x[d]) > shown * x.norm() ? x[d] : 0.;
-      char text[80];
-      std::snprintf(text, sizeof(text), "(%.3g, %.3g, %.3g)", r[0], r[1], r[2]);
-      return text;
     }
 
     std::string
@@ -360,8 +348,8 @@ namespace Touchstone
         worst = std::max(worst, force);
     if (worst.size == 0.)
       return "";
-    const std::string far =
-      "the contact force at " + at(worst.x) + " is far from normal to the slave surface: ";
+    const std::string far = "the contact force at " + place_in_words(worst.x) +
+                            " is far from normal to the slave surface: ";
     const std::string &master_name = parameters.master_body, &slave_name = parameters.slave_body;
     switch (touching_at(worst.x))
       {
@@ -408,12 +396,12 @@ namespace Touchstone
     const Overlap edges = deepest(crossing_edges(others, Tolerances::deep_edge), /*edges=*/true);
     if (edges.depth > 0.)
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +
-             parameters.master_body + "' have passed through each other at " + at(edges.slave) +
-             ", by " + printed(edges.depth);
+             parameters.master_body + "' have passed through each other at " +
+             place_in_words(edges.slave) + ", by " + printed(edges.depth);
     const Overlap vertices = deepest(entering(hidden_vertices(others)), /*edges=*/false);
     if (vertices.depth > 0.)
-      return "a node of '" + parameters.master_body + "' at " + at(vertices.master) + " lies " +
-             printed(vertices.depth) + " within '" + parameters.slave_body +
+      return "a node of '" + parameters.master_body + "' at " + place_in_words(vertices.master) +
+             " lies " + printed(vertices.depth) + " within '" + parameters.slave_body +
              "', between slave nodes that touch nothing";
     return "";
   }

@@ -66,6 +66,18 @@ namespace Touchstone
 
 
 
+    /** The motion of what a row faces, if it is known. @param motions Of the bodies. */
+    std::optional<Tensor<1, dim>>
+    motion_faced(const StepOfBodies &step, const ContactRow &row, const Motions &motions)
+    {
+      if (!row.on_obstacle())
+        return motions[row.master_body];
+      const RigidMotion obstacle = step.contact.pair(row).pairing().motion(step.time);
+      return obstacle.since(row.motion, contact_point(row));
+    }
+
+
+
     /** A direction in which something holds a body, and the motion in it that it asks for. */
     struct Hold
     {
@@ -101,9 +113,8 @@ namespace Touchstone
     add_rows(const StepOfBodies &step, const Motions &motions, Holds &holds)
     {
       // All ranks ask for all of them, so that each finds the same formula without a value.
-      std::vector<RigidMotion> obstacles;
       for (unsigned int p = 0; p < step.contact.n_pairs(); ++p)
-        obstacles.push_back(step.contact.pair(p).pairing().motion(step.time));
+        step.contact.pair(p).pairing().motion(step.time);
       const PressingRows pressing(step.contact);
       for (const ContactRow &row : step.contact.rows())
         {
@@ -115,9 +126,7 @@ namespace Touchstone
             continue;
           const unsigned int                  body = slave ? row.body : row.master_body;
           const std::optional<Tensor<1, dim>> motion =
-            !slave              ? motions[row.body]
-            : row.on_obstacle() ? obstacles[row.pair].since(row.motion, contact_point(row))
-                                : motions[row.master_body];
+            slave ? motion_faced(step, row, motions) : motions[row.body];
           // The normal points from the master to the slave.
           if ((slave && master) || !motion ||
               (!row.tied && (slave ? 1. : -1.) * (*motion * row.normal) < -close * row.size))
@@ -149,10 +158,7 @@ namespace Touchstone
         if (row.has_partner && motions[row.body])
           {
             const Tensor<1, dim> faced =
-              row.on_obstacle()
-                ? step.contact.pair(row).pairing().motion(step.time).since(row.motion,
-                                                                           contact_point(row))
-                : motions[row.master_body].value_or(Tensor<1, dim>());
+              motion_faced(step, row, motions).value_or(Tensor<1, dim>());
             if ((faced - *motions[row.body]) * row.normal > std::max(row.gap, 0.) + row.size)
               {
                 stay[row.body] = 1;
@@ -200,12 +206,12 @@ namespace Touchstone
       }
     leave_too_deep(step, motions, stay);
     bool moved = false;
-    for (const unsigned int body : step.unsupported)
-      moved = moved || stay[body] == 0;
-    const std::vector<unsigned int> bodies = bodies_of_unknowns(step.solid);
-    for (std::size_t k = 0; k < bodies.size(); ++k)
-      if (step.unsupported.count(bodies[k]) > 0 && stay[bodies[k]] == 0)
-        u.begin()[k] += closest[bodies[k]][step.solid.owned.nth_index_in_set(k) % dim];
+    for (unsigned int body = 0; body < n; ++body)
+      if (step.unsupported.count(body) > 0 && stay[body] == 0)
+        moved = true;
+      else
+        closest[body] = 0.;
+    translate_bodies(step.solid, closest, u);
     return moved;
   }
 } // namespace Touchstone

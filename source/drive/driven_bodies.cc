@@ -2,7 +2,6 @@
 
 #include <touchstone/drive/driven_bodies.h>
 #include <touchstone/drive/translations.h>
-#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -135,9 +134,7 @@ namespace Touchstone
                     [](const Tensor<1, dim> &motion) { return motion.norm_square() == 0.; }) ||
         deepest_overlap(contact, motions) > 1.)
       return false;
-    const auto bodies = bodies_of_unknowns(solid);
-    for (std::size_t k = 0; k < bodies.size(); ++k)
-      u.begin()[k] += motions[bodies[k]][solid.owned.nth_index_in_set(k) % dim];
+    translate_bodies(solid, motions, u);
     return true;
   }
 } // namespace Touchstone

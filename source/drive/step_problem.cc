@@ -111,16 +111,11 @@ namespace Touchstone
         // The velocity and acceleration that a support prescribes are difference quotients of its
         // displacement over a time that is short compared with a step. Components across the
         // prescribed direction keep what they have.
-        const double step     = scene.load_stepping.nominal_step(0.);
-        const auto   set_rate = [&](Vector &rate, const unsigned int order, const double instant) {
-          const auto now   = boundary_conditions.displacements(0.),
-                     soon  = boundary_conditions.displacements(instant),
-                     later = boundary_conditions.displacements(2. * instant);
+        const auto now      = boundary_conditions.displacements(0.);
+        const auto set_rate = [&](Vector &rate, const auto &of_support) {
           for (std::size_t k = 0; k < now.size(); ++k)
             {
-              double miss = order == 1 ? (soon[k].value - now[k].value) / instant
-                                         : (later[k].value - 2. * soon[k].value + now[k].value) /
-                                           (instant * instant);
+              double miss = of_support(k);
               for (unsigned int d = 0; d < dim; ++d)
                 miss -= now[k].direction[d] * rate(dim * now[k].node + d);
               for (unsigned int d = 0; d < dim; ++d)
@@ -128,11 +123,24 @@ namespace Touchstone
             }
           rate.compress(VectorOperation::add);
         };
-        integration->start(external,
-                           internal,
-                           {[&](Vector &velocity) { set_rate(velocity, 1, 1e-6 * step); },
-                            [&](Vector &acceleration) { set_rate(acceleration, 2, 1e-3 * step); },
-                            [&](Vector &force) { system->remove_supported(force); }});
+        const double step         = scene.load_stepping.nominal_step(0.);
+        const auto   set_velocity = [&](Vector &velocity) {
+          const double instant = 1e-6 * step;
+          const auto   soon    = boundary_conditions.displacements(instant);
+          set_rate(velocity,
+                   [&](const std::size_t k) { return (soon[k].value - now[k].value) / instant; });
+        };
+        const auto set_acceleration = [&](Vector &acceleration) {
+          const double instant = 1e-3 * step;
+          const auto   soon    = boundary_conditions.displacements(instant),
+                     later     = boundary_conditions.displacements(2. * instant);
+          set_rate(acceleration, [&](const std::size_t k) {
+            return (later[k].value - 2. * soon[k].value + now[k].value) / (instant * instant);
+          });
+        };
+        integration->start(external, internal, {set_velocity, set_acceleration, [&](Vector &force) {
+                                                  system->remove_supported(force);
+                                                }});
       }
     return start_report(contact);
   }

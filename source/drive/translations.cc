@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/translations.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -64,5 +65,15 @@ namespace Touchstone
       if (value > given * axes[0].first)
         result += (axis * missing) / value * axis;
     return result;
+  }
+
+
+
+  void
+  translate_bodies(const Solid &solid, const std::vector<Tensor<1, dim>> &motions, Vector &u)
+  {
+    const std::vector<unsigned int> bodies = bodies_of_unknowns(solid);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      u.begin()[k] += motions[bodies[k]][solid.owned.nth_index_in_set(k) % dim];
   }
 } // namespace Touchstone

@@ -34,4 +34,27 @@ namespace Touchstone
       }
     return result;
   }
+
+
+
+  Tensor<1, 3>
+  rotation_vector(const Tensor<2, 3> &turn)
+  {
+    Tensor<1, 3> axis; // times twice the sine
+    for (unsigned int d = 0; d < 3; ++d)
+      axis[d] = turn[(d + 2) % 3][(d + 1) % 3] - turn[(d + 1) % 3][(d + 2) % 3];
+    const double sine = 0.5 * axis.norm(), cosine = 0.5 * (trace(turn) - 1.);
+    if (sine > 1e-7)
+      return std::atan2(sine, cosine) / axis.norm() * axis;
+    if (cosine > 0.)
+      return 0.5 * axis;
+    // Half a turn: turn + 1 is twice the axis times itself.
+    unsigned int largest = 0;
+    for (unsigned int d = 1; d < 3; ++d)
+      if (turn[d][d] > turn[largest][largest])
+        largest = d;
+    Tensor<1, 3> along = turn[largest];
+    along[largest] += 1.;
+    return numbers::PI / along.norm() * along;
+  }
 } // namespace Touchstone

@@ -6,13 +6,14 @@ import csv
 
 from touchstone_test import below, check, finish, folder, relative, run
 
-JAWS = """
-set Bodies        = block
-set Obstacles     = left, right
-set Contact pairs = at left, at right
-set Probes        = middle
+def block(names, force):
+    """A block that no support holds, and the point in its middle."""
+    return f"""
+set Bodies = block
+{names}
+set Probes = middle
 subsection Body block
-  set Body force z = -20 * min(max(t - 1, 0), 1)
+  set Body force z = {force}
   subsection Geometry
     set Type         = box
     set Lower corner = 0, 0, 0
@@ -25,7 +26,20 @@ subsection Body block
     set Law           = neo-Hookean
   end
 end
-""" + "".join(f"""subsection Obstacle {side}
+subsection Probe middle
+  set Body  = block
+  set Point = 0.5, 0.5, 0.5
+end
+"""
+
+
+def displacements(result, component):
+    """Displacement of the middle by time."""
+    rows = csv.DictReader((result.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
+    return {float(row["time[time]"]): float(row[f"displacement_{component}[length]"]) for row in rows}
+
+
+JAWS = block("set Obstacles = left, right\nset Contact pairs = at left, at right", "-20 * min(max(t - 1, 0), 1)") + "".join(f"""subsection Obstacle {side}
   set Shape     = plane
   set Point     = {point}, 0, 0
   set Direction = {sign}1, 0, 0
@@ -41,11 +55,7 @@ subsection Contact pair at {side}
     set Coefficient = 0.3
   end
 end
-""" for side, point, sign in (("left", 0, ""), ("right", 1, "-"))) + """subsection Probe middle
-  set Body  = block
-  set Point = 0.5, 0.5, 0.5
-end
-subsection Load stepping
+""" for side, point, sign in (("left", 0, ""), ("right", 1, "-"))) + """subsection Load stepping
   set End time = 3
   set Steps    = 12
 end
@@ -59,32 +69,12 @@ for name, settings, ranks in (
         ("half", {"Body block/Symmetry": "front", "Body block/Geometry/Cells": "3, 2, 3"}, 1),
         ("light", {"Body block/Body force z": "-min(max(t - 1, 0), 1)"}, 1), ("steps", {"Load stepping/Steps": 24}, 1)):
     lifted = run(name, "jaws.prm", settings, ranks=ranks)
-    rows = csv.DictReader((lifted.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
-    height = {float(row["time[time]"]): float(row["displacement_z[length]"]) for row in rows}
+    height = displacements(lifted, "z")
     below(f"{lifted}: lifted by 0.5", relative(height[3.] - height[2.], 0.5), 1e-6)
     check("trying again" not in lifted.log, f"{lifted}: a step was made again")
 
 # A punch that pushes a block over a floor without friction, and goes back: the block stays where it is.
-PUNCH = """
-set Bodies        = block
-set Obstacles     = floor, punch
-set Contact pairs = on floor, at punch
-set Probes        = middle
-subsection Body block
-  set Body force z = -1
-  subsection Geometry
-    set Type         = box
-    set Lower corner = 0, 0, 0
-    set Upper corner = 1, 1, 1
-    set Cells        = 3, 3, 3
-  end
-  subsection Material
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-    set Law           = neo-Hookean
-  end
-end
-subsection Obstacle floor
+PUNCH = block("set Obstacles = floor, punch\nset Contact pairs = on floor, at punch", -1) + """subsection Obstacle floor
   set Shape = plane
 end
 subsection Contact pair on floor
@@ -102,10 +92,6 @@ subsection Contact pair at punch
   set Slave boundaries = left
   set Obstacle         = punch
 end
-subsection Probe middle
-  set Body  = block
-  set Point = 0.5, 0.5, 0.5
-end
 subsection Load stepping
   set End time = 2
   set Steps    = 4
@@ -113,8 +99,7 @@ end
 """
 (folder / "punch.prm").write_text(PUNCH, encoding="utf-8")
 pushed = run("pushed", "punch.prm")
-rows = csv.DictReader((pushed.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
-at = {float(row["time[time]"]): float(row["displacement_x[length]"]) for row in rows}
+at = displacements(pushed, "x")
 below("the block is pushed", relative(at[1.], 0.2), 1e-3)
 below("the block stays", relative(at[2.], at[1.]), 1e-3)
 finish()

@@ -12,11 +12,12 @@ namespace Touchstone
    * halves, quarters and so on that are short enough.
    *
    * A step knows where an obstacle is at its ends alone, to whole turns: what sticks to it or is
-   * tied to it would take the shortest way, and slip, the difference of positions, has the
-   * direction of the chord and not that of the circle, so that a turn by θ makes friction smaller
-   * by 1 − cos(θ/2) (doc/theory.md 6.2). 15 degrees are allowed with friction, which is 0.9 %, and
-   * else 45; any for obstacles that nothing touches as the step begins, and where a formula jumps.
-   * Collective. @param from Time of the committed state, which the contact is in.
+   * tied to it would follow the smaller rotation, and slip, a difference of positions, has the
+   * direction of the chord and not of the tangent, so that a rotation by θ reduces the moment of
+   * friction by the factor cos(θ/2) (doc/theory.md 6.2). 15 degrees are allowed with friction,
+   * which is 0.9 %, and else 45; any for obstacles that nothing touches as the step begins, and
+   * where a formula jumps. Collective. @param from Time of the committed state, which the contact
+   * is in.
    */
   double
   end_of_turn(const Contact &contact, double from, double to);

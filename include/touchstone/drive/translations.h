@@ -4,6 +4,7 @@
 #define touchstone_drive_translations_h
 
 #include <touchstone/base/types.h>
+#include <touchstone/solid/solid.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
@@ -36,6 +37,13 @@ namespace Touchstone
     /** Of each body: sum of d (x) d, and of d times the motion. */
     std::vector<double> sums;
   };
+
+  /** @brief Add a translation of each body, by its number, to a displacement @p u; owned dofs,
+   * length. */
+  void
+  translate_bodies(const Solid                               &solid,
+                   const std::vector<dealii::Tensor<1, dim>> &motions,
+                   Vector                                    &u);
 } // namespace Touchstone
 
 #endif

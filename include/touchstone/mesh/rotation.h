@@ -11,6 +11,11 @@ namespace Touchstone
    * for quarters. */
   dealii::Tensor<2, 3>
   rotation(const dealii::Tensor<1, 3> &axis, double degrees);
+
+  /** @brief The vector along the axis of a turn whose length is its angle in radians, at most pi.
+   */
+  dealii::Tensor<1, 3>
+  rotation_vector(const dealii::Tensor<2, 3> &turn);
 } // namespace Touchstone
 
 #endif
