@@ -127,9 +127,7 @@ namespace Touchstone
           const unsigned int                  body = slave ? row.body : row.master_body;
           const std::optional<Tensor<1, dim>> motion =
             slave ? motion_faced(step, row, motions) : motions[row.body];
-          // The normal points from the master to the slave.
-          if ((slave && master) || !motion ||
-              (!row.tied && (slave ? 1. : -1.) * (*motion * row.normal) < -close * row.size))
+          if ((slave && master) || !motion)
             {
               holds.unknown[body] = 1;
               if (slave && master)

@@ -155,6 +155,10 @@ for one, other, sign in zip(*forces, (1, 1, -1)):
 for solver in "MUMPS", "Belos GMRES":
     sunk = run(f"sunk_{solver[:5]}", checks / "tilting_block.prm", {"Linear solver/Type": solver}, fails=True)
     check("what touches is narrower than the slave faces" in sunk.summary["failure"], f"{sunk}: {sunk.summary['failure']}")
+# So does a punch that supports drive: where forces are off by a factor, as the run ends.
+deep = run("punch_deep", checks / "slave_larger_than_master.prm",
+           {**POINTWISE, "Body low/Geometry/Cells": "13, 13, 2", "Body up/Boundary top/Displacement z": "-0.2 * t"}, fails=True)
+check("more than a fifth of a slave face" in deep.summary["failure"], f"{deep}: {deep.summary['failure']}")
 # A block that tips over on two nodes, to the one or the other side, and is deepest in the middle of the run.
 tipped = run("tipped", checks / "tipping_block.prm", fails=True)
 check("more than a fifth of a slave face" in tipped.summary["failure"], f"{tipped}: {tipped.summary['failure']}")

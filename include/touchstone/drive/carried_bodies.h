@@ -32,8 +32,8 @@ namespace Touchstone
    * It is the one that comes closest to the motions of obstacles and driven bodies along the
    * normals of rows that press and slide or have no friction, and in all directions where they
    * stick or are tied; and to what is prescribed of the body. Bodies stay that have another guess
-   * already, that touch a body of which nothing is known, that something they touch goes away from,
-   * or that no translation brings to all of this within a hundredth of a slave face. Collective.
+   * already, that touch a body of which nothing is known, or that no translation brings to all of
+   * this within a hundredth of a slave face. Collective.
    *
    * @param u Guess for the displacement at the end of the step, in which driven bodies are where
    *          their supports move them; owned dofs, length.
