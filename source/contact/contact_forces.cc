@@ -71,9 +71,11 @@ namespace Touchstone
     auto result = decltype(of(row, state(row)))();
     if (state(row).active())
       result += weight * of(row, state(row));
-    if (const RowState &before = method->states().of_committed(row);
-        weight != 1. && before.active())
-      result += (1. - weight) * of(committed(row), before);
+    if (RowState before = method->states().of_committed(row); weight != 1. && before.active())
+      {
+        before.force += impulse_forces.of_committed(row).at_start;
+        result += (1. - weight) * of(committed(row), before);
+      }
     return result;
   }
 
@@ -140,9 +142,12 @@ namespace Touchstone
   Contact::add_impulses(const std::vector<VelocityConstraint> &constraints, const double step)
   {
     for (const VelocityConstraint &constraint : constraints)
-      // The impulse is taken from the velocity, see Impact, so the force on the slave node is
-      // opposite; divided by the step it is the mean force of the impact.
-      impulse_forces[all_rows[constraint.row]].force -=
-        constraint.impulse / step * constraint.condition.force();
+      {
+        // The impulse is taken from the velocity, see Impact, so the force on the slave node is
+        // opposite; divided by the step it is the mean force of the impact.
+        ImpulseForce &of_row = impulse_forces[all_rows[constraint.row]];
+        of_row.force -= constraint.impulse / step * constraint.condition.force();
+        of_row.at_start -= constraint.excess_force * constraint.condition.force();
+      }
   }
 } // namespace Touchstone

@@ -4,17 +4,58 @@
 #include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/velocity_constraints.h>
 
+#include <array>
+
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** The motion of an obstacle towards the end of a step. */
+    struct LastMotions
+    {
+      LastMotions(const Pairing &pairing, const double time, const double step)
+        : span(0.01 * step)
+      {
+        for (unsigned int k = 0; k < motions.size(); ++k)
+          motions[k] = pairing.motion(time - k * span);
+      }
+
+      double                     span;
+      std::array<RigidMotion, 4> motions;
+
+      /** Velocity and acceleration of its point at @p x: one-sided differences of second order, as
+       * the motion may change at once when the step ends. Of the whole step means would do for the
+       * velocity of a steady motion; of one that accelerates they lag behind by half a step, which
+       * Newmark's formulas pay back with a multiple of the acceleration. */
+      std::array<Tensor<1, dim>, 2>
+      rates(const Point<dim> &x) const
+      {
+        std::array<Tensor<1, dim>, 4> since;
+        for (unsigned int k = 1; k < motions.size(); ++k)
+          since[k] = motions[0].since(motions[k], x);
+        return {{(4. * since[1] - since[2]) / (2. * span),
+                 (5. * since[1] - 4. * since[2] + since[3]) / (span * span)}};
+      }
+    };
+  } // namespace
+
+
 
   // At an impact without rebound the relative velocity of active nodes vanishes along the normal,
   // and along the surface where they stick. The graph starts from the supports and leaves out
   // conditions that they or earlier rows determine, which would make the impulses non-unique, but
   // for those that other nodes of the row have to meet, as where the slave node is driven.
   std::vector<VelocityConstraint>
-  velocity_constraints(const Contact &contact, const ConstraintGraph &supports, const double step)
+  velocity_constraints(const Contact         &contact,
+                       const ConstraintGraph &supports,
+                       const double           time,
+                       const double           step)
   {
+    std::vector<LastMotions> obstacles;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      obstacles.emplace_back(contact.pair(p).pairing(), time, step);
     ConstraintGraph                 graph(supports);
     RefusedConditions               refused(graph);
     std::vector<VelocityConstraint> of_refused;
@@ -25,17 +66,16 @@ namespace Touchstone
         // A row without compression presses on nothing, so that its velocity is free.
         if (!state.active() || state.redundant || !(state.lambda > 0. || row.tied))
           continue;
-        VelocityConstraint constraint{{}, true, row.index};
+        VelocityConstraint constraint{{}, 0., true, row.index};
         constraint.condition.node    = row.slave;
         constraint.condition.stencil = row.stencil;
-        // An obstacle imposes its own velocity, taken as constant over the step; zero for a master
-        // body.
-        const Tensor<1, dim> velocity =
-          row.share * row.motion.since(contact.committed(row).motion, contact_point(row)) / step;
+        // An obstacle imposes its own motion; a master body moves with its nodes.
+        const auto [velocity, acceleration] = obstacles[row.pair].rates(contact_point(row));
         const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
           constraint.condition.direction       = direction;
           constraint.condition.force_direction = force;
-          constraint.condition.value           = direction * velocity;
+          constraint.condition.value           = row.share * (direction * velocity);
+          constraint.acceleration              = row.share * (direction * acceleration);
           if (graph.accept(constraint.condition, ConstraintGraph::Treatment::multiplier))
             result.push_back(constraint);
           else if (constraint.normal)

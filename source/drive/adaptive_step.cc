@@ -78,8 +78,12 @@ namespace Touchstone
           volume_output.reinit();
           probes.reinit();
         }
-        problem = Step::make(scene, forest, solid, timer);
+        // A problem begins with virgin bodies at time 0, whose stiffness damps; what has become of
+        // them is given back afterwards, as when a run is resumed.
+        const MaterialHistory history = solid.take_history();
+        problem                       = Step::make(scene, forest, solid, timer);
         problem->start();
+        solid.give_history(history, transfer.committed_time);
         problem->adopt(transfer, time);
         summary.cells    = forest.triangulation.n_global_active_cells();
         summary.unknowns = solid.dof_handler.n_dofs();

@@ -22,6 +22,30 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Slave nodes, and hanging nodes that follow any of them: these leave to the nodes that they
+     * follow what mass they have. Owned nodes; collective. */
+    std::set<Index>
+    without_mass(const std::set<Index> &slaves, const Solid &solid)
+    {
+      Vector flag(solid.zero_vector());
+      for (const Index node : slaves)
+        flag(node) = 1.;
+      flag.compress(VectorOperation::insert);
+      const Vector    of_slaves = solid.ghosted(flag);
+      std::set<Index> result(slaves);
+      for (const auto &line : solid.hanging.get_lines())
+        if (line.index % dim == 0 && solid.owned.is_element(line.index))
+          for (const auto &[parent, weight] : line.entries)
+            if (of_slaves(parent) > 0.)
+              result.insert(line.index);
+      return result;
+    }
+  } // namespace
+
+
+
   Dynamics::Dynamics(const TimeIntegrationParameters &parameters,
                      const double                     step,
                      const Solid                     &solid,
@@ -31,7 +55,7 @@ namespace Touchstone
     , committed_u(committed_u)
     , scheme(parameters.coefficients())
     , massless(parameters.scheme == TimeIntegrationParameters::Scheme::contact_stabilized
-                 ? slaves
+                 ? without_mass(slaves, solid)
                  : std::set<Index>())
     , mass(parameters.mass, solid, massless, step)
     , body(bodies_of_unknowns(solid))

@@ -69,6 +69,10 @@ namespace Touchstone
         }
     end_v.compress(VectorOperation::insert);
     end_a.compress(VectorOperation::insert);
+    // Hanging nodes follow nodes with and without mass.
+    if (mass.moved())
+      for (Vector *const rate : {&end_v, &end_a})
+        solid.hanging.distribute(*rate);
     // Impacts without rebound act on the final velocity, before its kinetic energy is taken.
     if (forces.velocity_constraints != nullptr)
       lose_rebound(forces, result);
@@ -93,10 +97,10 @@ namespace Touchstone
   void
   Dynamics::lose_rebound(const StepForces &forces, Energies &energies)
   {
-    // The acceleration first, with B a = 0: it would drive the nodes apart again in the next step.
-    // Its impulses correct the contact forces that the next step sees as those of its beginning.
-    // Then the velocity, with B v = velocity of the obstacle; the energy lost is the impulse times
-    // the mean of the velocities before and after.
+    // The acceleration first, with B a = acceleration of the obstacle: it would drive the nodes
+    // apart again in the next step. Its impulses correct the contact forces that the next step sees
+    // as those of its beginning. Then the velocity, with B v = velocity of the obstacle; the energy
+    // lost is the impulse times the mean of the velocities before and after.
     Impact             impact(*forces.velocity_constraints, mass, solid, forces.remove_support);
     const Impact::Loss of_acceleration = impact.stop(end_a, false);
     end_forces.normal -= of_acceleration.normal;

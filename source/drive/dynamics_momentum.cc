@@ -65,6 +65,12 @@ namespace Touchstone
               for (unsigned int k = 0; k < n; ++k)
                 v.begin()[i] += part(k) * motions[k].begin()[i];
         }
+    // No step has found what the supports of this mesh add.
+    Vector others(old.external);
+    others -= old.internal;
+    others += old.normal;
+    others += old.tangential;
+    old.support = support_force(others, forces.remove_support);
   }
 
 

@@ -70,22 +70,19 @@ namespace Touchstone
 
 
 
-  // What supports must add to the forces for the nodes to have the acceleration a: the first step
-  // does work with it, as with all forces at its beginning.
+  // The next step does work with it, as with all forces at its beginning.
   Vector
-  Dynamics::support_force(const Vector   &external,
-                          const Vector   &internal,
-                          const Supports &supports) const
+  Dynamics::support_force(const Vector                        &others,
+                          const std::function<void(Vector &)> &remove_support) const
   {
-    Vector result(external), drag(v), rest(external);
+    Vector result(others), drag(v), rest(others);
     mass.multiply(a, result);
     damping_force(v, drag);
     result += drag;
-    result += internal;
-    result -= external;
+    result -= others;
     solid.condense(result);
     rest = result;
-    supports.remove_force(rest);
+    remove_support(rest);
     result -= rest;
     return result;
   }
@@ -113,7 +110,9 @@ namespace Touchstone
       a.begin()[i] = mass_of_node.begin()[i] > 0. ? force.begin()[i] / mass_of_node.begin()[i] : 0.;
     supports.set_acceleration(a);
     solid.hanging.distribute(a);
-    old.support = support_force(external, internal, supports);
+    force = external;
+    force -= internal;
+    old.support = support_force(force, supports.remove_force);
     // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
     // steps are compared with.
     old.external = old.load = external;

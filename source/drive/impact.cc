@@ -196,21 +196,22 @@ namespace Touchstone
 
 
   Impact::Loss
-  Impact::stop(Vector &v, const bool moving)
+  Impact::stop(Vector &v, const bool of_velocity)
   {
     Loss loss{Vector(v), Vector(v)};
     loss.normal = loss.tangential = 0.;
     if (rows.size() == 0)
       return loss;
     Vector excess(rows, solid.communicator), impulses(excess), on_nodes(v);
-    // Relative velocity that contact does not allow; of accelerations no obstacle velocity is
-    // subtracted.
+    // Relative velocity, or acceleration, that contact does not allow.
     apply(*motion, v, excess);
     double largest = 0.;
-    for (std::size_t k = 0; moving && k < constraints.size(); ++k)
+    for (std::size_t k = 0; k < constraints.size(); ++k)
       {
-        excess.begin()[k] -= constraints[k].condition.value;
-        largest = std::max(largest, std::abs(constraints[k].condition.value));
+        const double of_obstacle =
+          of_velocity ? constraints[k].condition.value : constraints[k].acceleration;
+        excess.begin()[k] -= of_obstacle;
+        largest = std::max(largest, std::abs(of_obstacle));
       }
     Operator response{[&](Vector &y, const Vector &p) {
       apply_transposed(*force, p, on_nodes);
@@ -232,10 +233,10 @@ namespace Touchstone
     v -= on_nodes;
     for (std::size_t k = 0; k < constraints.size(); ++k)
       {
-        // The impulses are kept for the output, as contact force impulse / h of the step.
-        // Tangential ones are then set to zero, so that the product below has the normal part
-        // alone.
-        constraints[k].impulse = impulses.begin()[k];
+        // The impulses are kept for the output, as contact force impulse / h of the step, and for
+        // the work of obstacles over the next one. Tangential ones are then set to zero, so that
+        // the product below has the normal part alone.
+        (of_velocity ? constraints[k].impulse : constraints[k].excess_force) = impulses.begin()[k];
         // Impulse times prescribed velocity: work that moving obstacles did not do.
         loss.of_obstacles += impulses.begin()[k] * constraints[k].condition.value;
         if (!constraints[k].normal)

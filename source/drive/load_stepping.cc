@@ -122,8 +122,11 @@ namespace Touchstone
     const NarrowContact narrow    = in_cycles ? NarrowContact() : narrow_contact(state.contact);
     if (!narrow.failure.empty())
       return narrow.failure;
-    for (const std::string &text : turned_bodies(solid, state.ghosted_displacement()))
+    const TurnedBodies turned = turned_bodies(solid, state.ghosted_displacement());
+    for (const std::string &text : turned.warnings)
       warnings.add(text);
+    if (!turned.failure.empty())
+      return turned.failure;
     if (!in_cycles)
       for (const auto check : {unheld_edges, turned_surfaces})
         for (const std::string &text : check(state.contact))

@@ -47,6 +47,7 @@ namespace Touchstone
     committed_time      = time;
     largest_force_scale = std::max(largest_force_scale, force_scale);
     remember_contact();
+    new_mesh = false;
   }
 
 
@@ -68,7 +69,8 @@ namespace Touchstone
     // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
     const bool plastic = scene.time_integration.plastic_impacts();
     if (plastic && time > committed_time)
-      constraints = velocity_constraints(contact, system->conditions(), time - committed_time);
+      constraints =
+        velocity_constraints(contact, system->conditions(), time, time - committed_time);
     use({&external,
          &internal,
          &normal,
@@ -98,7 +100,12 @@ namespace Touchstone
       throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
                          " times the largest so far came from nowhere, " +
                          std::to_string(here / end.largest) +
-                         " in this step ('Time integration/Gain tolerance')",
+                         " in this step ('Time integration/Gain tolerance')" +
+                         (new_mesh ? "; the mesh has changed in it, and stresses and histories "
+                                     "taken over to new points differ from those they come from: "
+                                     "refine before the motion begins ('Refinement/Cycles'), or "
+                                     "allow for more"
+                                   : ""),
                        here / end.largest);
     // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
     // estimated from the first guess.
@@ -185,16 +192,18 @@ namespace Touchstone
     // Before the first step there is no history but what start() makes.
     if (committed_time > 0.)
       {
+        new_mesh    = true;
         committed_u = u = fields.front();
         // Twice: first the committed state becomes the history, then the present one the initial
         // guess.
         contact.update(u, committed_time);
         contact.adopt({fields.begin() + 1, middle}, true);
+        remember_contact();
         if (integration->dynamic())
           {
             boundary_conditions.external_force(committed_time, u, external);
             solid.internal_force(u, internal);
-            unbalanced = 0.;
+            system->prescribe(committed_time, u);
           }
         with_forces([&](const StepForces &forces) {
           integration->adopt({rates, fields.end()}, forces, before.momenta);

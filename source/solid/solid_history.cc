@@ -57,6 +57,33 @@ namespace Touchstone
 
 
 
+  MaterialHistory
+  Solid::take_history()
+  {
+    MaterialHistory result;
+    if (has_history())
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          result[cell->active_cell_index()] = cell_state(cell->active_cell_index());
+    nonlinear->keep_in(nullptr);
+    set_time(0.);
+    committed_time = 0.;
+    return result;
+  }
+
+
+
+  void
+  Solid::give_history(const MaterialHistory &history, const double committed)
+  {
+    for (const auto &[cell, state] : history)
+      set_cell_state(cell, state);
+    set_time(committed);
+    committed_time = committed;
+  }
+
+
+
   void
   Solid::exchange_cell_states()
   {

@@ -18,8 +18,9 @@ namespace Touchstone
 
   namespace
   {
-    /** The strain that a turn makes without any deformation, from which on it is told of. */
-    constexpr double too_large = 1e-3;
+    /** The strain that a turn makes without any deformation, from which on it is told of, and from
+     * which on the stresses have nothing in common with those of the body. */
+    constexpr double large = 1e-3, too_large = 0.1;
 
     /** Integrals over the volume of a body. */
     struct Strains
@@ -62,10 +63,10 @@ namespace Touchstone
 
 
 
-  std::vector<std::string>
+  TurnedBodies
   turned_bodies(const Solid &solid, const Vector &u)
   {
-    std::vector<std::string>   result;
+    TurnedBodies               result;
     const Tensor<2, dim>       identity = unit_symmetric_tensor<dim>();
     const std::vector<Strains> strains  = integrate(solid, u);
     for (unsigned int b = 0; b < strains.size(); ++b)
@@ -75,7 +76,7 @@ namespace Touchstone
                                rotation = project_onto_orthogonal_tensors(identity + mean);
           const double cosine           = std::clamp(0.5 * (trace(rotation) - 1.), -1., 1.),
                        size             = 1. - cosine;
-          if (size <= too_large)
+          if (size <= large)
             continue;
           char text[100];
           std::snprintf(text,
@@ -83,13 +84,17 @@ namespace Touchstone
                         "%.3g degrees, which in this law is a strain of %.2g",
                         std::acos(cosine) * 180. / numbers::PI,
                         size);
-          result.push_back(
+          const std::string what =
             "body '" + solid.bodies[b].name + "', of the 'Law' '" +
             solid.bodies[b].material.law.name +
             "' for small strain and small rotations, has turned by " + text +
             " without any deformation: its stresses are wrong by up to that times the "
             "modulus. Take a law that turns with the body: 'St. Venant-Kirchhoff' or "
-            "'neo-Hookean', 'finite-strain von Mises' for plasticity");
+            "'neo-Hookean', 'finite-strain von Mises' for plasticity";
+          if (size > too_large && result.failure.empty())
+            result.failure = what;
+          else
+            result.warnings.push_back(what);
         }
     return result;
   }

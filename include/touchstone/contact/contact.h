@@ -236,7 +236,8 @@ namespace Touchstone
     double
     part_to_touch() const;
 
-    /** @brief Add impulses, divided by the length @p step of the step, to the reported forces. */
+    /** @brief Add impulses, divided by the length @p step of the step, to the reported forces, and
+     * excess forces to those that the next step begins with. */
     void
     add_impulses(const std::vector<VelocityConstraint> &constraints, double step);
 
@@ -321,13 +322,15 @@ namespace Touchstone
 
     struct ImpulseForce
     {
-      dealii::Tensor<1, dim> force;
+      /** What is added to the reported force, for results of one step only: in no checkpoint; and
+       * to the force that the next step begins with. */
+      dealii::Tensor<1, dim> force, at_start;
 
-      /** For results of one step only: in no checkpoint. */
       template <class Self, class Visitor>
       static void
-      visit_state(Self &, Visitor &&)
+      visit_state(Self &self, Visitor &&visit)
       {
+        visit(self.at_start);
       }
     };
 

@@ -18,6 +18,8 @@ namespace Touchstone
     /** Of the node and what it touches, with the velocity that they should have,
      * length per time. */
     Condition condition;
+    /** That they should have, length per time squared. */
+    double acceleration;
     /** Along the normal; otherwise along a tangent. */
     bool normal;
     /** ContactRow::index. */
@@ -25,13 +27,19 @@ namespace Touchstone
     /** The impulse that enforces it, force times time; subtracted from the momentum of the node
      * along Condition::force(). */
     double impulse = 0.;
+    /** The force that enforces the acceleration, in the same way; the next step begins without it.
+     */
+    double excess_force = 0.;
   };
 
-  /** @brief Velocity constraints of all nodes that are active at velocity level, in a step
-   * of length @p step: along normals, and across them where nodes stick; those implied by
-   * @p supports are omitted. */
+  /** @brief Velocity constraints of all nodes that are active at velocity level, at the end
+   * @p time of a step of length @p step: along normals, and across them where nodes stick; those
+   * implied by @p supports are omitted. */
   std::vector<VelocityConstraint>
-  velocity_constraints(const Contact &contact, const ConstraintGraph &supports, double step);
+  velocity_constraints(const Contact         &contact,
+                       const ConstraintGraph &supports,
+                       double                 time,
+                       double                 step);
 } // namespace Touchstone
 
 #endif

@@ -140,9 +140,10 @@ namespace Touchstone
      */
     void
     lose_rebound(const StepForces &forces, Energies &energies);
-    /** Of the supports at time 0, with the acceleration there. */
+    /** What supports must add for the nodes to move with v and a against the forces @p others,
+     * which are all but those of inertia and damping. */
     Vector
-    support_force(const Vector &external, const Vector &internal, const Supports &supports) const;
+    support_force(const Vector &others, const std::function<void(Vector &)> &remove_support) const;
     /** C times a velocity. */
     void
     damping_force(const Vector &velocity, Vector &force) const;

@@ -56,12 +56,12 @@ namespace Touchstone
 
     /**
      * @brief Remove from @p v the part that violates the constraints.
-     * @param moving @p v is a velocity, to be that of the obstacles; otherwise an acceleration, to
-     * be zero relative to them.
+     * @param of_velocity @p v is a velocity; otherwise an acceleration. It will be that of the
+     * obstacles.
      * @throws LinearSolverFailure Collective.
      */
     Loss
-    stop(Vector &v, bool moving);
+    stop(Vector &v, bool of_velocity);
 
   private:
     const Mass                      &mass;

@@ -153,6 +153,8 @@ namespace Touchstone
     /** Those that changed in the last residual(), and those that exchanged() what they touch in the
      * last of a few in which any did: what goes to and fro need not do so in each. */
     RowPlaces changed_rows, exchanged_rows;
+    /** The step begins with what comes from another mesh. */
+    bool new_mesh = false;
     /** The attempt at this step began with bodies where their supports move them. */
     bool guessed = false;
     /** Of all ranks, and since how many calls of residual(). */

@@ -24,6 +24,9 @@
 
 namespace Touchstone
 {
+  /** @brief States of the quadrature points of cells, by active cell index. */
+  using MaterialHistory = std::map<unsigned int, std::vector<double>>;
+
   /**
    * @brief The bodies as a discretised continuum: dofs, stiffness, internal
    * forces and stresses, without any boundary condition.
@@ -214,6 +217,14 @@ namespace Touchstone
     {
       return nonlinear->state(active_cell_index);
     }
+
+    /** @brief The committed states of all cells that this rank knows, by active cell index; the
+     * bodies are virgin and at time 0 afterwards. */
+    MaterialHistory
+    take_history();
+    /** @brief Give back on the same mesh what take_history() has taken; of time @p committed. */
+    void
+    give_history(const MaterialHistory &history, double committed);
 
     /** @brief From now on @p other keeps the history of the cells of this mesh, and no copy is
      * here; null: virgin material, kept here. */
