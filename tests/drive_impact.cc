@@ -98,7 +98,7 @@ namespace
     run.solve(run.scene.newton, 0.8);
     const Solid                    &solid = run.solid;
     std::vector<VelocityConstraint> constraints =
-      velocity_constraints(run.problem.state().contact, ConstraintGraph(), 0.1);
+      velocity_constraints(run.problem.state().contact, ConstraintGraph(), 0.8, 0.1);
     unsigned int sliding = 0, across = 0;
     for (VelocityConstraint &node : constraints)
       {
