@@ -139,15 +139,32 @@ namespace Touchstone
 
 
   void
-  Contact::add_impulses(const std::vector<VelocityConstraint> &constraints, const double step)
+  Contact::keep_impulses(const std::vector<VelocityConstraint> *const constraints,
+                         const double                                 step,
+                         const double                                 end_weight)
   {
-    for (const VelocityConstraint &constraint : constraints)
-      {
-        // The impulse is taken from the velocity, see Impact, so the force on the slave node is
-        // opposite; divided by the step it is the mean force of the impact.
-        ImpulseForce &of_row = impulse_forces[all_rows[constraint.row]];
-        of_row.force -= constraint.impulse / step * constraint.condition.force();
-        of_row.at_start -= constraint.excess_force * constraint.condition.force();
-      }
+    std::vector<Tensor<1, dim>> impulses(pairs.size());
+    if (constraints != nullptr)
+      for (const VelocityConstraint &constraint : *constraints)
+        {
+          // The impulse is taken from the velocity, see Impact, so the force on the slave node is
+          // opposite; divided by the step it is the mean force of the impact. What the force at the
+          // end of the step was too large by has acted with its weight.
+          const ContactRow    &row     = all_rows[constraint.row];
+          ImpulseForce        &of_row  = impulse_forces[row];
+          const Tensor<1, dim> impulse = constraint.impulse / step * constraint.condition.force(),
+                               excess  = constraint.excess_force * constraint.condition.force();
+          of_row.at_start -= excess;
+          of_row.force -= impulse + (1. - end_weight) * excess;
+          impulses[row.pair] -= row.share * impulse;
+        }
+    for (const ContactRow &row : all_rows)
+      impulses[row.pair] +=
+        over_step(row, end_weight, [](const ContactRow &at, const RowState &of) {
+          return at.share * of.force;
+        });
+    mean_forces = impulses;
+    for (Tensor<1, dim> &force : mean_forces)
+      force = Utilities::MPI::sum(force, solid.communicator);
   }
 } // namespace Touchstone

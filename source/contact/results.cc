@@ -238,6 +238,7 @@ namespace Touchstone
             result.force[d]  = sums[p].force[d].value(communicator);
             result.moment[d] = sums[p].moment[d].value(communicator);
           }
+        result.mean_force      = contact.mean_force(p).value_or(result.force);
         result.area            = sums[p].area.value(communicator);
         result.max_pressure    = Utilities::MPI::max(result.max_pressure, communicator);
         result.max_penetration = Utilities::MPI::max(result.max_penetration, communicator);

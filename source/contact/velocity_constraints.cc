@@ -66,15 +66,15 @@ namespace Touchstone
         // A row without compression presses on nothing, so that its velocity is free.
         if (!state.active() || state.redundant || !(state.lambda > 0. || row.tied))
           continue;
-        VelocityConstraint constraint{{}, 0., true, row.index};
-        constraint.condition.node    = row.slave;
-        constraint.condition.stencil = row.stencil;
         // An obstacle imposes its own motion; a master body moves with its nodes.
         const auto [velocity, acceleration] = obstacles[row.pair].rates(contact_point(row));
+        VelocityConstraint constraint{{}, 0., row.share * velocity, true, row.index};
+        constraint.condition.node    = row.slave;
+        constraint.condition.stencil = row.stencil;
         const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
           constraint.condition.direction       = direction;
           constraint.condition.force_direction = force;
-          constraint.condition.value           = row.share * (direction * velocity);
+          constraint.condition.value           = direction * constraint.of_obstacle;
           constraint.acceleration              = row.share * (direction * acceleration);
           if (graph.accept(constraint.condition, ConstraintGraph::Treatment::multiplier))
             result.push_back(constraint);

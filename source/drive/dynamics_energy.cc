@@ -34,7 +34,6 @@ namespace Touchstone
     // (doc/time_integration.md, "The energy ledger").
     Vector way(u), mean(v);
     way -= committed_u;
-    const double at_end = scheme.gamma + scheme.alpha_m;
     end_forces.load *= 1. - scheme.alpha_f;
     end_forces.load.add(scheme.alpha_f, old.external);
     for (const auto part : {&NodalForces::load, &NodalForces::support})
@@ -82,8 +81,9 @@ namespace Touchstone
     // Contact and friction count the work done against their forces. What moving obstacles
     // and overlaps that are pressed in do enters through contact and is work of the outside as
     // well, like that of supports.
-    result.contact += forces.outside_normal - work(old.normal, *forces.normal, at_end);
-    result.friction += forces.outside_tangential - work(old.tangential, *forces.tangential, at_end);
+    result.contact += forces.outside_normal - work(old.normal, *forces.normal, forces.end_weight);
+    result.friction +=
+      forces.outside_tangential - work(old.tangential, *forces.tangential, forces.end_weight);
     result.external += forces.outside_normal + forces.outside_tangential +
                        work(old.support, end_forces.support, scheme.gamma) +
                        work(old.load, end_forces.load, scheme.gamma);
@@ -108,9 +108,9 @@ namespace Touchstone
     Vector             mean(end_v);
     const Impact::Loss loss = impact.stop(end_v, true);
     mean.sadd(0.5, 0.5, end_v);
-    energies.contact += mean * loss.normal - loss.of_obstacles;
-    energies.friction += mean * loss.tangential;
-    energies.external -= loss.of_obstacles;
+    energies.contact += mean * loss.normal - loss.normal_of_obstacles;
+    energies.friction += mean * loss.tangential - loss.tangential_of_obstacles;
+    energies.external -= loss.normal_of_obstacles + loss.tangential_of_obstacles;
   }
 
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/dynamics.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
@@ -25,46 +27,44 @@ namespace Touchstone
     a   = rates.back();
     old = forces;
 
-    // Interpolation on coarsened cells does not conserve momentum. The missing linear and angular
-    // momentum of each body without supports is given back by a rigid motion: its six amplitudes
-    // solve a 6 x 6 system whose matrix holds the momenta (linear and angular about the origin) of
-    // the six unit rigid motions.
-    const unsigned int n       = 2 * dim;
-    const auto         numbers = [](const BodyMomentum &momentum) {
-      dealii::Vector<double> result(n);
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          result(d)       = momentum.linear[d];
-          result(dim + d) = momentum.angular[d];
-        }
-      return result;
-    };
-    std::vector<Vector>             motions;
-    std::vector<FullMatrix<double>> inertia(before.size(), FullMatrix<double>(n));
-    for (unsigned int k = 0; k < n; ++k)
-      {
-        // Column k of each body's matrix are the momenta of the unit rigid motion k; all bodies
-        // move at once, so that six products with M serve any number of bodies.
-        motions.push_back(rigid_motion(k));
-        const auto momenta = momenta_of(motions.back());
-        for (unsigned int b = 0; b < before.size(); ++b)
-          for (unsigned int i = 0; i < n; ++i)
-            inertia[b](i, k) = numbers(momenta[b])(i);
-      }
-    const auto now = momenta_of(v);
+    // Interpolation on coarsened cells does not conserve momentum. What each body misses of it is
+    // given back by a rigid motion, one of those that its supports leave free: half of a body on a
+    // plane of symmetry moves on as the whole one does.
+    const std::vector<Rotation> frames = rotation_frames();
+    std::vector<Vector>         motions;
+    for (unsigned int k = 0; k < 2 * dim; ++k)
+      motions.push_back(rigid_motion(k, frames));
+    std::vector<std::vector<Numbers>> momenta;
+    for (const Vector &motion : motions)
+      momenta.push_back(rigid_momenta(momenta_of(motion), frames));
+    const std::vector<Numbers> were = rigid_momenta(before, frames),
+                               are  = rigid_momenta(momenta_of(v), frames);
     for (unsigned int b = 0; b < before.size(); ++b)
-      // A supported body exchanges momentum with its supports: it need not keep its own.
-      if (!solid.bodies[b].supported())
-        {
-          dealii::Vector<double> missing = numbers(before[b]), part(n);
-          missing -= numbers(now[b]);
-          inertia[b].gauss_jordan();
-          inertia[b].vmult(part, missing);
-          for (std::size_t i = 0; i < body.size(); ++i)
-            if (body[i] == b)
-              for (unsigned int k = 0; k < n; ++k)
-                v.begin()[i] += part(k) * motions[k].begin()[i];
-        }
+      {
+        const FullMatrix<double> free = free_motions(b, motions, forces.remove_support);
+        const unsigned int       n    = free.n();
+        if (n == 0)
+          continue;
+        // In the basis of the free motions: inertia * part = missing.
+        FullMatrix<double>     inertia(2 * dim), of_basis(2 * dim, n), small(n);
+        dealii::Vector<double> missing(2 * dim), rest(n), part(n), amplitudes(2 * dim);
+        for (unsigned int k = 0; k < 2 * dim; ++k)
+          {
+            missing(k) = were[b][k] - are[b][k];
+            for (unsigned int i = 0; i < 2 * dim; ++i)
+              inertia(i, k) = momenta[k][b][i];
+          }
+        inertia.mmult(of_basis, free);
+        free.Tmmult(small, of_basis);
+        free.Tvmult(rest, missing);
+        small.gauss_jordan();
+        small.vmult(part, rest);
+        free.vmult(amplitudes, part);
+        for (std::size_t i = 0; i < body.size(); ++i)
+          if (body[i] == b)
+            for (unsigned int k = 0; k < 2 * dim; ++k)
+              v.begin()[i] += amplitudes(k) * motions[k].begin()[i];
+      }
     // No step has found what the supports of this mesh add.
     Vector others(old.external);
     others -= old.internal;
@@ -75,21 +75,103 @@ namespace Touchstone
 
 
 
+  FullMatrix<double>
+  Dynamics::free_motions(const unsigned int                   b,
+                         const std::vector<Vector>           &motions,
+                         const std::function<void(Vector &)> &remove_support) const
+  {
+    // What supports take away of each motion, and the products of that: motions without any are the
+    // null space of this matrix.
+    const unsigned int       n = motions.size();
+    LAPACKFullMatrix<double> resisted(n, n);
+    std::vector<Vector>      taken;
+    for (const Vector &motion : motions)
+      {
+        Vector rest(motion);
+        remove_support(rest);
+        taken.push_back(motion);
+        taken.back() -= rest;
+      }
+    double n_nodes = 0.;
+    for (std::size_t i = 0; i < body.size(); i += dim)
+      n_nodes += (body[i] == b);
+    n_nodes = Utilities::MPI::sum(n_nodes, solid.communicator);
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int l = 0; l < n; ++l)
+        {
+          double sum = 0.;
+          for (std::size_t i = 0; i < body.size(); ++i)
+            if (body[i] == b)
+              sum += taken[k].begin()[i] * taken[l].begin()[i];
+          resisted(k, l) = Utilities::MPI::sum(sum, solid.communicator);
+        }
+    resisted.compute_svd();
+    unsigned int rank = 0;
+    while (rank < n && resisted.singular_value(rank) > 1e-10 * n_nodes)
+      ++rank;
+    FullMatrix<double> result(n, n - rank);
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int l = rank; l < n; ++l)
+        result(k, l - rank) = resisted.get_svd_u()(k, l);
+    return result;
+  }
+
+
+
+  std::vector<Dynamics::Rotation>
+  Dynamics::rotation_frames() const
+  {
+    std::vector<Rotation> result;
+    for (const BoundingBox<dim> &box : body_boxes(solid))
+      {
+        const auto &[low, high] = box.get_boundary_points();
+        result.push_back({Point<dim>(0.5 * (low + high)), 0.5 * low.distance(high)});
+      }
+    return result;
+  }
+
+
+
+  std::vector<Dynamics::Numbers>
+  Dynamics::rigid_momenta(const std::vector<BodyMomentum> &momenta,
+                          const std::vector<Rotation>     &frames)
+  {
+    std::vector<Numbers> result(momenta.size());
+    for (unsigned int b = 0; b < momenta.size(); ++b)
+      {
+        const Tensor<1, dim> angular =
+          (momenta[b].angular - cross_product_3d(frames[b].centre, momenta[b].linear)) /
+          frames[b].size;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result[b][d]       = momenta[b].linear[d];
+            result[b][dim + d] = angular[d];
+          }
+      }
+    return result;
+  }
+
+
+
   Vector
-  Dynamics::rigid_motion(const unsigned int k) const
+  Dynamics::rigid_motion(const unsigned int k, const std::vector<Rotation> &frames) const
   {
     Vector result(v);
     // Reference positions of the nodes, as a vector over the dofs.
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
-    // The rotation is about the origin at the present positions: omega x (X + u).
     result += committed_u;
     const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
     for (std::size_t i = 0; i < result.locally_owned_size(); i += dim)
       {
-        Tensor<1, dim> velocity(axis);
+        const Rotation &frame = frames[body[i]];
+        Tensor<1, dim>  velocity(axis);
         if (k >= dim)
-          velocity = cross_product_3d(
-            axis, Point<dim>(result.begin()[i], result.begin()[i + 1], result.begin()[i + 2]));
+          velocity = cross_product_3d(axis,
+                                      Point<dim>(result.begin()[i],
+                                                 result.begin()[i + 1],
+                                                 result.begin()[i + 2]) -
+                                        frame.centre) /
+                     frame.size;
         for (unsigned int d = 0; d < dim; ++d)
           result.begin()[i + d] = velocity[d];
       }

@@ -237,12 +237,20 @@ namespace Touchstone
         // the work of obstacles over the next one. Tangential ones are then set to zero, so that
         // the product below has the normal part alone.
         (of_velocity ? constraints[k].impulse : constraints[k].excess_force) = impulses.begin()[k];
-        // Impulse times prescribed velocity: work that moving obstacles did not do.
-        loss.of_obstacles += impulses.begin()[k] * constraints[k].condition.value;
+        // Impulse times velocity of the obstacle: work that moving obstacles did not do.
+        const double impulse = impulses.begin()[k],
+                     normal  = constraints[k].normal
+                                 ? impulse * (constraints[k].condition.direction *
+                                             constraints[k].of_obstacle)
+                                 : 0.;
+        loss.normal_of_obstacles += normal;
+        loss.tangential_of_obstacles +=
+          impulse * (constraints[k].condition.force() * constraints[k].of_obstacle) - normal;
         if (!constraints[k].normal)
           impulses.begin()[k] = 0.;
       }
-    loss.of_obstacles = Utilities::MPI::sum(loss.of_obstacles, solid.communicator);
+    for (double *const part : {&loss.normal_of_obstacles, &loss.tangential_of_obstacles})
+      *part = Utilities::MPI::sum(*part, solid.communicator);
     apply_transposed(*motion, impulses, loss.normal);
     for (Vector *part : {&loss.normal, &loss.tangential})
       {

@@ -38,8 +38,8 @@ namespace Touchstone
   void
   StepProblem::keep(const StepForces &forces)
   {
-    if (forces.velocity_constraints != nullptr)
-      contact.add_impulses(*forces.velocity_constraints, time - committed_time);
+    if (integration->dynamic())
+      contact.keep_impulses(forces.velocity_constraints, time - committed_time, forces.end_weight);
     for (Stateful *part : parts)
       part->commit();
     forcing_term.end_step();
@@ -71,7 +71,8 @@ namespace Touchstone
     if (plastic && time > committed_time)
       constraints =
         velocity_constraints(contact, system->conditions(), time, time - committed_time);
-    use({&external,
+    use({end_weight,
+         &external,
          &internal,
          &normal,
          &tangential,

@@ -72,8 +72,7 @@ namespace Touchstone
     impact.openings += (impact.touching && !touching);
     impact.touched  = impact.touched || touching;
     impact.touching = touching;
-    // The force of a step acts on its whole length.
-    impact.impulse += (end - begin) * result.force;
+    impact.impulse += (end - begin) * result.mean_force;
     impact.peak_force = std::max(impact.peak_force, force);
   }
 

@@ -236,10 +236,22 @@ namespace Touchstone
     double
     part_to_touch() const;
 
-    /** @brief Add impulses, divided by the length @p step of the step, to the reported forces, and
-     * excess forces to those that the next step begins with. */
+    /** @brief What the forces of a step of the length @p step with inertia, which is about to be
+     * committed, amount to: the mean force of each pair; and with impacts without rebound (else
+     * null) what their impulses add to the reported forces, and excess forces to those that the
+     * next step begins with. @param end_weight As in work_of_obstacles(). Collective. */
     void
-    add_impulses(const std::vector<VelocityConstraint> &constraints, double step);
+    keep_impulses(const std::vector<VelocityConstraint> *constraints,
+                  double                                 step,
+                  double                                 end_weight);
+
+    /** @brief Mean over the last step of the force on the slave body, if keep_impulses() has been
+     * called for it. */
+    std::optional<dealii::Tensor<1, dim>>
+    mean_force(const unsigned int pair) const
+    {
+      return mean_forces.empty() ? std::nullopt : std::optional(mean_forces[pair]);
+    }
 
     /** @brief What impulses add to the reported force of a row, until the next update(). */
     const dealii::Tensor<1, dim> &
@@ -342,6 +354,8 @@ namespace Touchstone
     std::shared_ptr<Enforcement>              method;
     CyclicConstraints                         cyclic;
     RowArray<ImpulseForce>                    impulse_forces;
+    /** By pair; empty in statics and explicit dynamics. */
+    std::vector<dealii::Tensor<1, dim>> mean_forces;
     /** Of the committed state, and of the present one. */
     NodesWithoutRows                      without_rows;
     std::optional<NodesWithoutRowsFinder> without_rows_finder;

@@ -70,6 +70,8 @@ namespace Touchstone
   {
     /** Force of the master on the slave body. */
     dealii::Tensor<1, dim> force;
+    /** Its mean over the step, of which it is the end in implicit dynamics; else the same. */
+    dealii::Tensor<1, dim> mean_force;
     /** Moment of that force about the origin of the reference frame. */
     dealii::Tensor<1, dim> moment;
     /** Tributary area of the nodes in contact. */
@@ -89,7 +91,7 @@ namespace Touchstone
     void
     serialize(Archive &archive, const unsigned int)
     {
-      auto &[f, m, a, pressure, penetration, in_contact, sticks, slips, work] = *this;
+      auto &[f, mean, m, a, pressure, penetration, in_contact, sticks, slips, work] = *this;
       archive &f &m &a &pressure &penetration &in_contact &sticks &slips &work;
     }
   };

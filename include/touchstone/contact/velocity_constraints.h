@@ -20,6 +20,8 @@ namespace Touchstone
     Condition condition;
     /** That they should have, length per time squared. */
     double acceleration;
+    /** Of the obstacle, times the share of the row; length per time. */
+    dealii::Tensor<1, dim> of_obstacle;
     /** Along the normal; otherwise along a tangent. */
     bool normal;
     /** ContactRow::index. */

@@ -6,6 +6,10 @@
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/solid/mass.h>
 
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+
 namespace Touchstone
 {
   /**
@@ -155,12 +159,31 @@ namespace Touchstone
      */
     std::vector<BodyMomentum>
     momenta_of(const Vector &velocity) const;
+    /** Rotations of a body are about its centre, and such that its nodes move by about one, as in
+     * translations; lengths. */
+    struct Rotation
+    {
+      dealii::Point<dim> centre;
+      double             size;
+    };
+    using Numbers = std::array<double, 2 * dim>;
+    std::vector<Rotation>
+    rotation_frames() const;
+    /** Products of the momentum of each body with its unit rigid motions. */
+    static std::vector<Numbers>
+    rigid_momenta(const std::vector<BodyMomentum> &momenta, const std::vector<Rotation> &frames);
     /**
      * Unit rigid velocity of all bodies: translation along axis @p k for k < 3, rotation about axis
-     * k - 3 through the origin otherwise.
+     * k - 3 otherwise.
      */
     Vector
-    rigid_motion(unsigned int k) const;
+    rigid_motion(unsigned int k, const std::vector<Rotation> &frames) const;
+    /** Combinations of the rigid @p motions of body @p b that its supports do not resist, as
+     * columns. Collective. */
+    dealii::FullMatrix<double>
+    free_motions(unsigned int                         b,
+                 const std::vector<Vector>           &motions,
+                 const std::function<void(Vector &)> &remove_support) const;
     /** Stiffness for damping. */
     const Matrix &
     damping_matrix() const

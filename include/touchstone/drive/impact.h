@@ -51,7 +51,7 @@ namespace Touchstone
     struct Loss
     {
       Vector normal, tangential;
-      double of_obstacles = 0.;
+      double normal_of_obstacles = 0., tangential_of_obstacles = 0.;
     };
 
     /**

@@ -23,6 +23,9 @@ namespace Touchstone
    * ghosts. */
   struct StepForces
   {
+    /** What contact forces of the end of the step count in its momentum and work, those of its
+     * beginning having the rest (doc/time_integration.md, "The energy ledger"). */
+    double end_weight = 1.;
     /** Of loads and of the stress in the bodies. */
     const Vector *external = nullptr, *internal = nullptr;
     /** Of contact, along the normals and across them. */
