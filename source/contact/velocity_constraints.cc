@@ -34,7 +34,9 @@ namespace Touchstone
       {
         std::array<Tensor<1, dim>, 4> since;
         for (unsigned int k = 1; k < motions.size(); ++k)
-          since[k] = motions[0].since(motions[k], x);
+          // What has been turned and stands still would move by round-off.
+          if (motions[k].shift != motions[0].shift || motions[k].turn != motions[0].turn)
+            since[k] = motions[0].since(motions[k], x);
         return {{(4. * since[1] - since[2]) / (2. * span),
                  (5. * since[1] - 4. * since[2] + since[3]) / (span * span)}};
       }
