@@ -74,7 +74,8 @@ below("awkward, duration differs from that of even steps",
 # Nodes that do not rebound: Newmark's and the HHT method do not chatter, nor gain energy.
 for scheme in "newmark", "hht":
     steady = two_bars(scheme, 40, 200, {SCHEME: scheme, **LUMPED})
-    bounds(steady, 0.02, 0.02, 0.01)
+    # The mean stress is the momentum that the bars exchange over the duration, which is a step longer.
+    bounds(steady, 0.03, 0.02, 0.01)
     below(f"{scheme}, balance error, gain", gain(steady), 1e-3)
 # Left to rebound they do, and the run ends with the reason.
 rebound = two_bars("gain", 40, 200, {SCHEME: "newmark", **LUMPED,
