@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/dynamics.h>
-#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
@@ -30,10 +29,10 @@ namespace Touchstone
     // Interpolation on coarsened cells does not conserve momentum. What each body misses of it is
     // given back by a rigid motion, one of those that its supports leave free: half of a body on a
     // plane of symmetry moves on as the whole one does.
-    const std::vector<Rotation> frames = rotation_frames();
-    std::vector<Vector>         motions;
+    const std::vector<RigidFrame> frames = rigid_frames(solid);
+    std::vector<Vector>           motions;
     for (unsigned int k = 0; k < 2 * dim; ++k)
-      motions.push_back(rigid_motion(k, frames));
+      motions.push_back(moved_rigidly(k, frames));
     std::vector<std::vector<Numbers>> momenta;
     for (const Vector &motion : motions)
       momenta.push_back(rigid_momenta(momenta_of(motion), frames));
@@ -118,23 +117,9 @@ namespace Touchstone
 
 
 
-  std::vector<Dynamics::Rotation>
-  Dynamics::rotation_frames() const
-  {
-    std::vector<Rotation> result;
-    for (const BoundingBox<dim> &box : body_boxes(solid))
-      {
-        const auto &[low, high] = box.get_boundary_points();
-        result.push_back({Point<dim>(0.5 * (low + high)), 0.5 * low.distance(high)});
-      }
-    return result;
-  }
-
-
-
   std::vector<Dynamics::Numbers>
   Dynamics::rigid_momenta(const std::vector<BodyMomentum> &momenta,
-                          const std::vector<Rotation>     &frames)
+                          const std::vector<RigidFrame>   &frames)
   {
     std::vector<Numbers> result(momenta.size());
     for (unsigned int b = 0; b < momenta.size(); ++b)
@@ -154,24 +139,17 @@ namespace Touchstone
 
 
   Vector
-  Dynamics::rigid_motion(const unsigned int k, const std::vector<Rotation> &frames) const
+  Dynamics::moved_rigidly(const unsigned int k, const std::vector<RigidFrame> &frames) const
   {
     Vector result(v);
     // Reference positions of the nodes, as a vector over the dofs.
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
     result += committed_u;
-    const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
     for (std::size_t i = 0; i < result.locally_owned_size(); i += dim)
       {
-        const Rotation &frame = frames[body[i]];
-        Tensor<1, dim>  velocity(axis);
-        if (k >= dim)
-          velocity = cross_product_3d(axis,
-                                      Point<dim>(result.begin()[i],
-                                                 result.begin()[i + 1],
-                                                 result.begin()[i + 2]) -
-                                        frame.centre) /
-                     frame.size;
+        const RigidFrame    &frame = frames[body[i]];
+        const Point<dim>     x(result.begin()[i], result.begin()[i + 1], result.begin()[i + 2]);
+        const Tensor<1, dim> velocity = rigid_mode(k, (x - frame.centre) / frame.size);
         for (unsigned int d = 0; d < dim; ++d)
           result.begin()[i + d] = velocity[d];
       }

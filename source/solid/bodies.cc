@@ -48,6 +48,29 @@ namespace Touchstone
 
 
 
+  std::vector<RigidFrame>
+  rigid_frames(const Solid &solid)
+  {
+    std::vector<RigidFrame> result;
+    for (const BoundingBox<dim> &box : body_boxes(solid))
+      {
+        const auto &[low, high] = box.get_boundary_points();
+        result.push_back({Point<dim>(0.5 * (low + high)), 0.5 * low.distance(high)});
+      }
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  rigid_mode(const unsigned int k, const Tensor<1, dim> &x)
+  {
+    const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
+    return k < dim ? axis : cross_product_3d(axis, x);
+  }
+
+
+
   /** The body of each locally owned dof, in the order of the rows of the matrix. No node belongs to
    * two bodies, since bodies share no vertices. */
   std::vector<unsigned int>

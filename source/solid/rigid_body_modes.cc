@@ -22,16 +22,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Displacement of mode @p k (three translations, three rotations) at
-     * position @p x from the centre. */
-    Tensor<1, dim>
-    mode(const unsigned int k, const Tensor<1, dim> &x)
-    {
-      Tensor<1, dim> e;
-      e[k % dim] = 1.;
-      return k < dim ? e : cross_product_3d(e, x);
-    }
-
     /** Whether the eigenvalues of a positive semidefinite 6 x 6 matrix are all larger than
      * @p threshold. */
     bool
@@ -60,25 +50,8 @@ namespace Touchstone
   RigidBodyModes::RigidBodyModes(const Solid &solid)
     : solid(solid)
     , rigid(new RigidMotions{Epetra_Vector(solid.stiffness().rows()), bodies_of_unknowns(solid)})
-    , centres(solid.bodies.size())
-    , sizes(solid.bodies.size())
+    , frames(rigid_frames(solid))
   {
-    // Each body has a centre and half a diagonal of its own, by which positions are divided: so
-    // rotations displace its nodes by about one, like translations, and thresholds on both are
-    // comparable.
-    const std::vector<BoundingBox<dim>> boxes = body_boxes(solid);
-    for (unsigned int b = 0; b < boxes.size(); ++b)
-      {
-        const auto &[low, high] = boxes[b].get_boundary_points();
-        double diagonal         = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            centres[b][d] = 0.5 * (low[d] + high[d]);
-            diagonal += std::pow(high[d] - low[d], 2);
-          }
-        sizes[b] = 0.5 * std::sqrt(diagonal);
-      }
-
     // Multigrid takes six motions for all bodies, about the centre of the first: restricted to
     // any body they span its rigid motions just as well.
     Epetra_Vector     &position = rigid->position;
@@ -96,8 +69,8 @@ namespace Touchstone
               known[row] = 1;
               const Tensor<1, dim> x =
                 solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
-                centres[0];
-              position[row] = x[dofs[i] % dim] / sizes[0];
+                frames[0].centre;
+              position[row] = x[dofs[i] % dim] / frames[0].size;
             }
         }
   }
@@ -119,7 +92,8 @@ namespace Touchstone
         const auto add = [&](const unsigned int b, const Tensor<1, dim> &x, const double sign) {
           for (unsigned int k = 0; k < 6; ++k)
             row.emplace_back(6 * b + k,
-                             sign * (condition.direction * mode(k, (x - centres[b]) / sizes[b])));
+                             sign * (condition.direction *
+                                     rigid_mode(k, (x - frames[b].centre) / frames[b].size)));
         };
         add(condition.body, condition.position, 1.);
         // Other nodes of its own face are in the stencil of a point that touches an obstacle.
@@ -251,14 +225,10 @@ namespace Touchstone
       Tensor<1, dim>        direction;
       for (unsigned int d = 0; d < dim; ++d)
         direction[d] = result[d] = (*rigid)(d, row);
-      for (unsigned int k = 0; k < dim; ++k)
-        {
-          Tensor<1, dim> e;
-          e[k]            = 1.;
-          result[dim + k] = ((*rigid)(dim + k, row) * sizes[0] +
-                             cross_product_3d(e, centres[0] - centres[b]) * direction) /
-                            sizes[b];
-        }
+      for (unsigned int k = dim; k < 2 * dim; ++k)
+        result[k] = ((*rigid)(k, row) * frames[0].size +
+                     rigid_mode(k, frames[0].centre - frames[b].centre) * direction) /
+                    frames[b].size;
       return result;
     };
 

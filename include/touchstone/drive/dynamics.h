@@ -4,6 +4,7 @@
 #define touchstone_drive_dynamics_h
 
 #include <touchstone/drive/time_integration.h>
+#include <touchstone/solid/bodies.h>
 #include <touchstone/solid/mass.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -159,25 +160,13 @@ namespace Touchstone
      */
     std::vector<BodyMomentum>
     momenta_of(const Vector &velocity) const;
-    /** Rotations of a body are about its centre, and such that its nodes move by about one, as in
-     * translations; lengths. */
-    struct Rotation
-    {
-      dealii::Point<dim> centre;
-      double             size;
-    };
     using Numbers = std::array<double, 2 * dim>;
-    std::vector<Rotation>
-    rotation_frames() const;
     /** Products of the momentum of each body with its unit rigid motions. */
     static std::vector<Numbers>
-    rigid_momenta(const std::vector<BodyMomentum> &momenta, const std::vector<Rotation> &frames);
-    /**
-     * Unit rigid velocity of all bodies: translation along axis @p k for k < 3, rotation about axis
-     * k - 3 otherwise.
-     */
+    rigid_momenta(const std::vector<BodyMomentum> &momenta, const std::vector<RigidFrame> &frames);
+    /** Velocity of all nodes, each in rigid motion @p k of its body at its present position. */
     Vector
-    rigid_motion(unsigned int k, const std::vector<Rotation> &frames) const;
+    moved_rigidly(unsigned int k, const std::vector<RigidFrame> &frames) const;
     /** Combinations of the rigid @p motions of body @p b that its supports do not resist, as
      * columns. Collective. */
     dealii::FullMatrix<double>

@@ -5,7 +5,7 @@
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/solid/solid.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -69,10 +69,9 @@ namespace Touchstone
                   double            smallest) const;
 
   private:
-    const Solid                    &solid;
-    std::unique_ptr<RigidMotions>   rigid;
-    std::vector<dealii::Point<dim>> centres;
-    std::vector<double>             sizes;
+    const Solid                  &solid;
+    std::unique_ptr<RigidMotions> rigid;
+    std::vector<RigidFrame>       frames;
 
     std::vector<double>
     gram_matrix(const std::vector<Condition> &conditions) const;
