@@ -41,9 +41,9 @@ for name, settings in (("force", {}), ("length", BY_LENGTH)):
     same(two, turned(f"degree 2, {name}, 2 ranks", {DEGREE: 2, **settings}, 2), 1e-7)
 
 
-def told(result):
+def told(result, bodies=("lower", "upper")):
     """Bodies whose law does not turn with them."""
-    return [body for body in ("lower", "upper") for text in result.summary["warnings"]
+    return [body for body in bodies for text in result.summary["warnings"]
             if f"body '{body}'" in text and "has turned by" in text]
 
 
@@ -60,4 +60,11 @@ result = run("linear, 3 degrees", scene, {**LINEAR, **turn_by(3)})
 check(told(result) == ["lower", "upper"], f"linear, 3 degrees: {result.summary['warnings']}")
 result = run("linear, 1 degree", scene, {**LINEAR, **turn_by(1)})
 check(told(result) == [], f"linear, 1 degree: {result.summary['warnings']}")
+# A strip that is bent turns at its tip alone, or at both ends by opposite angles.
+bent = checks.parent / "large_bending.prm"
+result = run("bent", bent, {"Body strip/Material/Law": "linear elastic", "Reference solution/Type": "none"})
+check(told(result, ["strip"]) == ["strip"], f"bent: {result.summary['warnings']}")
+result = run("bent by a tenth", bent, {"Body strip/Material/Law": "linear elastic", "Reference solution/Type": "none",
+                                        "Body strip/Boundary right/Traction z": "0.5*t"})
+check(told(result, ["strip"]) == [], f"bent by a tenth: {result.summary['warnings']}")
 finish()

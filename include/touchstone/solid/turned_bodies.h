@@ -22,8 +22,10 @@ namespace Touchstone
    * @brief Bodies at small strain that have turned so far that their strains are wrong
    * (doc/theory.md 2.1), each with the error and the remedy, in words.
    *
-   * A turn by theta has the linear strain cos(theta) - 1 across its axis. It is told of where that
-   * is more than 1e-3 for the mean turn of the body, and is a failure from 0.1 on (26 degrees).
+   * A turn by theta has the linear strain cos(theta) - 1 across its axis. It is told of where the
+   * mean of that over the cells of a body is more than 1e-3, and is a failure from 0.1 on (all of
+   * the body turned by 26 degrees). So bars that are bent are told of, whose ends turn against each
+   * other.
    *
    * @param u Displacement with ghosts. Collective.
    */
