@@ -10,6 +10,7 @@
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/conflicting_supports.h>
+#include <touchstone/solid/turning_supports.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -223,7 +224,10 @@ namespace Touchstone
   double
   StepProblem::end_of_step(const double t) const
   {
-    return end_of_turn(contact, committed_time, t);
+    const auto turns = [this](const double from, const double to) {
+      return turns_of_supports(solid, boundary_conditions, from, to);
+    };
+    return end_of_turn(contact, turns, committed_time, t);
   }
 
 

@@ -37,9 +37,18 @@ namespace Touchstone
       return 1. - std::clamp(0.5 * (trace(rotation) - 1.), -1., 1.);
     }
 
-    /** Mean of strain_of_turn() over the volume of each body of small strain; zero for others. */
-    std::vector<double>
-    mean_strains(const Solid &solid, const Vector &u)
+    /** Means over the volume of a body. */
+    struct Means
+    {
+      double volume = 0.;
+      /** Of strain_of_turn() of the cells. */
+      double         strain = 0.;
+      Tensor<2, dim> gradient;
+    };
+
+    /** Of bodies of small strain; zero for others. Collective. */
+    std::vector<Means>
+    means(const Solid &solid, const Vector &u)
     {
       const FEValuesExtractors::Vector displacement(0);
       // Enough for a mean of which more than 1e-3 counts.
@@ -48,7 +57,7 @@ namespace Touchstone
                            QGauss<dim>(solid.fe.degree),
                            update_gradients | update_JxW_values);
       std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
-      std::vector<double>         volumes(solid.bodies.size(), 0.), result(volumes);
+      std::vector<Means>          result(solid.bodies.size());
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && !solid.bodies[cell->material_id()].material.finite_strain())
           {
@@ -61,14 +70,19 @@ namespace Touchstone
                 volume += values.JxW(q);
                 gradient += values.JxW(q) * gradients[q];
               }
-            volumes[cell->material_id()] += volume;
-            result[cell->material_id()] += volume * strain_of_turn(gradient / volume);
+            Means &body = result[cell->material_id()];
+            body.volume += volume;
+            body.strain += volume * strain_of_turn(gradient / volume);
+            body.gradient += gradient;
           }
-      Utilities::MPI::sum(volumes, solid.communicator, volumes);
-      Utilities::MPI::sum(result, solid.communicator, result);
-      for (std::size_t b = 0; b < result.size(); ++b)
-        if (volumes[b] > 0.)
-          result[b] /= volumes[b];
+      for (Means &body : result)
+        {
+          body.volume = Utilities::MPI::sum(body.volume, solid.communicator);
+          if (body.volume == 0.)
+            continue;
+          body.strain   = Utilities::MPI::sum(body.strain, solid.communicator) / body.volume;
+          body.gradient = Utilities::MPI::sum(body.gradient, solid.communicator) / body.volume;
+        }
       return result;
     }
   } // namespace
@@ -78,10 +92,10 @@ namespace Touchstone
   TurnedBodies
   turned_bodies(const Solid &solid, const Vector &u)
   {
-    TurnedBodies              result;
-    const std::vector<double> strains = mean_strains(solid, u);
-    for (std::size_t b = 0; b < strains.size(); ++b)
-      if (const double size = strains[b]; size > large)
+    TurnedBodies             result;
+    const std::vector<Means> of_bodies = means(solid, u);
+    for (std::size_t b = 0; b < of_bodies.size(); ++b)
+      if (const double size = of_bodies[b].strain; size > large)
         {
           char text[100];
           std::snprintf(text,
@@ -96,7 +110,8 @@ namespace Touchstone
             " that no deformation belongs to: its stresses are wrong by up to that times the "
             "modulus. Take a law that turns with the body: 'St. Venant-Kirchhoff' or "
             "'neo-Hookean', 'finite-strain von Mises' for plasticity";
-          if (size > too_large && result.failure.empty())
+          // A bar whose parts alone have turned has the deflection of linear theory.
+          if (strain_of_turn(of_bodies[b].gradient) > too_large && result.failure.empty())
             result.failure = what;
           else
             result.warnings.push_back(what);

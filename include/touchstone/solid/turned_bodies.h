@@ -23,9 +23,9 @@ namespace Touchstone
    * (doc/theory.md 2.1), each with the error and the remedy, in words.
    *
    * A turn by theta has the linear strain cos(theta) - 1 across its axis. It is told of where the
-   * mean of that over the cells of a body is more than 1e-3, and is a failure from 0.1 on (all of
-   * the body turned by 26 degrees). So bars that are bent are told of, whose ends turn against each
-   * other.
+   * mean of that over the cells of a body is more than 1e-3: so bars that are bent are told of,
+   * whose ends turn against each other. It is a failure where that of the mean turn of the body is
+   * more than 0.1 (26 degrees).
    *
    * @param u Displacement with ghosts. Collective.
    */

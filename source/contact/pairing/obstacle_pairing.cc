@@ -155,10 +155,12 @@ namespace Touchstone
         return free.after(latest[0].motion);
       }
 
-      double
+      Tensor<1, dim>
       driven_turn(const double from, const double to) const override
       {
-        return angle ? angle->value(Point<dim>(), to) - angle->value(Point<dim>(), from) : 0.;
+        if (!angle)
+          return {};
+        return (angle->value(Point<dim>(), to) - angle->value(Point<dim>(), from)) * axis;
       }
 
       void

@@ -209,11 +209,12 @@ namespace Touchstone
       return {};
     }
 
-    /** @brief How far formulas turn a rigid master from one time to another; degrees. */
-    virtual double
+    /** @brief How far formulas turn a rigid master from one time to another: rotation vector,
+     * degrees. */
+    virtual dealii::Tensor<1, dim>
     driven_turn(double /*from*/, double /*to*/) const
     {
-      return 0.;
+      return {};
     }
 
     /** @brief Forces have moved a rigid master so far beside what drives it. */
