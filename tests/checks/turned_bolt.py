@@ -60,11 +60,9 @@ result = run("linear, 3 degrees", scene, {**LINEAR, **turn_by(3)})
 check(told(result) == ["lower", "upper"], f"linear, 3 degrees: {result.summary['warnings']}")
 result = run("linear, 1 degree", scene, {**LINEAR, **turn_by(1)})
 check(told(result) == [], f"linear, 1 degree: {result.summary['warnings']}")
-# A strip that is bent turns at its tip alone, or at both ends by opposite angles.
-bent = checks.parent / "large_bending.prm"
-result = run("bent", bent, {"Body strip/Material/Law": "linear elastic", "Reference solution/Type": "none"})
-check(told(result, ["strip"]) == ["strip"], f"bent: {result.summary['warnings']}")
-result = run("bent by a tenth", bent, {"Body strip/Material/Law": "linear elastic", "Reference solution/Type": "none",
-                                        "Body strip/Boundary right/Traction z": "0.5*t"})
-check(told(result, ["strip"]) == [], f"bent by a tenth: {result.summary['warnings']}")
+# A strip that is bent turns most at its tip.
+for load, warned in ("5*t", ["strip"]), ("0.5*t", []):
+    result = run(f"bent by {load}", checks.parent / "large_bending.prm",
+                 {"Body strip/Material/Law": "linear elastic", "Body strip/Boundary right/Traction z": load})
+    check(told(result, ["strip"]) == warned, f"{result}: {result.summary['warnings']}")
 finish()
