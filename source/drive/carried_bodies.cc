@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/contact/pressing_rows.h>
 #include <touchstone/drive/carried_bodies.h>
-#include <touchstone/drive/driven_bodies.h>
 #include <touchstone/drive/translations.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +20,16 @@ namespace Touchstone
 
   namespace
   {
-    /** By the size of a slave face: how far a guess may be off what holds the body. */
+    /** By the size of a slave face: how far a translation may be off what holds the body. */
     constexpr double close = 0.01;
 
-    using Motions = std::vector<std::optional<Tensor<1, dim>>>;
+    /** By the motions that the holds ask for, in the mean of squares: how far one with a rotation
+     * may be off. Faces of a ball that rolls lift off and touch. A block between plates that shear
+     * it is off by 0.4, a column twice as high as wide by 0.24. */
+    constexpr double near = 0.2;
+
+    /** Guesses turn bodies by no more; radians. */
+    constexpr double most = 0.8;
 
 
 
@@ -59,90 +64,9 @@ namespace Touchstone
               translates = translates && of_body[0] + of_body[1] <= round_off * of_body[2];
             }
           if (translates)
-            result[b] = motion;
+            result[b] = BodyMotion{motion, {}, {}};
         }
       return result;
-    }
-
-
-
-    /** The motion of what a row faces, if it is known. @param motions Of the bodies. */
-    std::optional<Tensor<1, dim>>
-    motion_faced(const StepOfBodies &step, const ContactRow &row, const Motions &motions)
-    {
-      if (!row.on_obstacle())
-        return motions[row.master_body];
-      const RigidMotion obstacle = step.contact.pair(row).pairing().motion(step.time);
-      return obstacle.since(row.motion, contact_point(row));
-    }
-
-
-
-    /** A direction in which something holds a body, and the motion in it that it asks for. */
-    struct Hold
-    {
-      unsigned int   body;
-      Tensor<1, dim> direction;
-      /** Length. */
-      double motion, size;
-    };
-
-
-
-    /** What holds bodies, and bodies of which it does not tell the motion. */
-    struct Holds
-    {
-      std::vector<Hold> of_bodies;
-      std::vector<int>  unknown;
-    };
-
-
-
-    void
-    add_supports(const StepOfBodies &step, const Vector &u, Holds &holds)
-    {
-      for (const auto &support : step.conditions.prescribed_directions())
-        if (step.unsupported.count(support.body) > 0)
-          holds.of_bodies.push_back(
-            {support.body, support.direction, missing_displacement(support, step.time, u), 0.});
-    }
-
-
-
-    void
-    add_rows(const StepOfBodies &step, const Motions &motions, Holds &holds)
-    {
-      // All ranks ask for all of them, so that each finds the same formula without a value.
-      for (unsigned int p = 0; p < step.contact.n_pairs(); ++p)
-        step.contact.pair(p).pairing().motion(step.time);
-      const PressingRows pressing(step.contact);
-      for (const ContactRow &row : step.contact.rows())
-        {
-          if (!row.tied && !pressing.contain(row))
-            continue;
-          const bool slave  = step.unsupported.count(row.body) > 0,
-                     master = !row.on_obstacle() && step.unsupported.count(row.master_body) > 0;
-          if (!slave && !master)
-            continue;
-          const unsigned int                  body = slave ? row.body : row.master_body;
-          const std::optional<Tensor<1, dim>> motion =
-            slave ? motion_faced(step, row, motions) : motions[row.body];
-          if ((slave && master) || !motion)
-            {
-              holds.unknown[body] = 1;
-              if (slave && master)
-                holds.unknown[row.master_body] = 1;
-            }
-          else if (step.contact.state(row).status == ContactStatus::slip)
-            holds.of_bodies.push_back({body, row.normal, row.normal * *motion, row.size});
-          else
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                Tensor<1, dim> axis;
-                axis[d] = 1.;
-                holds.of_bodies.push_back({body, axis, (*motion)[d], row.size});
-              }
-        }
     }
 
 
@@ -157,7 +81,8 @@ namespace Touchstone
           {
             const Tensor<1, dim> faced =
               motion_faced(step, row, motions).value_or(Tensor<1, dim>());
-            if ((faced - *motions[row.body]) * row.normal > std::max(row.gap, 0.) + row.size)
+            if ((faced - motions[row.body]->at(contact_point(row))) * row.normal >
+                std::max(row.gap, 0.) + row.size)
               {
                 stay[row.body] = 1;
                 if (!row.on_obstacle())
@@ -165,6 +90,85 @@ namespace Touchstone
               }
           }
       Utilities::MPI::max(stay, step.solid.communicator, stay);
+    }
+
+
+
+    /** The translation of each body that misses no hold. Collective. */
+    Motions
+    translations_to(const std::vector<Hold> &holds, const StepOfBodies &step)
+    {
+      const unsigned int n = step.solid.n_bodies();
+      Translations       translations(n);
+      for (const Hold &hold : holds)
+        translations.add(hold.body, hold.direction, hold.motion);
+      translations.complete(step.solid.communicator);
+      std::vector<BodyMotion> closest(n);
+      for (const unsigned int body : step.unsupported)
+        closest[body].shift = translations.closest(body);
+      std::vector<int> off(n);
+      for (const Hold &hold : holds)
+        if (const BodyMotion &motion = closest[hold.body];
+            std::abs(hold.miss(motion)) > close * std::max(hold.size, motion.shift.norm()))
+          off[hold.body] = 1;
+      Utilities::MPI::max(off, step.solid.communicator, off);
+      Motions result(n);
+      for (const unsigned int body : step.unsupported)
+        if (off[body] == 0)
+          result[body] = closest[body];
+      return result;
+    }
+
+
+
+    /** The rigid motion of each body that is near what its holds ask for. Collective. */
+    Motions
+    rolls_to(const std::vector<Hold> &holds, const StepOfBodies &step)
+    {
+      const unsigned int n       = step.solid.n_bodies();
+      const auto         closest = closest_rigid_motions(holds, n, step.solid.communicator);
+      // Of each body the sums of squares of what holds ask for, and of what is missed; and whether
+      // a support is.
+      std::vector<double> asked(n), missed(n);
+      std::vector<int>    off(n);
+      for (const Hold &hold : holds)
+        {
+          const double miss = hold.miss(closest[hold.body]);
+          asked[hold.body] += hold.motion * hold.motion;
+          missed[hold.body] += miss * miss;
+          if (hold.size == 0. && std::abs(miss) > close * closest[hold.body].shift.norm())
+            off[hold.body] = 1;
+        }
+      for (std::vector<double> *sums : {&asked, &missed})
+        Utilities::MPI::sum(*sums, step.solid.communicator, *sums);
+      Utilities::MPI::max(off, step.solid.communicator, off);
+      Motions result(n);
+      for (const unsigned int body : step.unsupported)
+        if (off[body] == 0 && closest[body].turn.norm() <= most &&
+            missed[body] <= near * near * asked[body])
+          result[body] = closest[body];
+      return result;
+    }
+
+
+
+    /** Add the motions to a displacement. */
+    void
+    move_bodies(const StepOfBodies &step, const Motions &motions, Vector &u)
+    {
+      // Present positions, as a vector over the dofs.
+      Vector position(u);
+      VectorTools::get_position_vector(step.solid.mapping, step.solid.dof_handler, position);
+      position += step.committed_u;
+      const std::vector<unsigned int> body = bodies_of_unknowns(step.solid);
+      for (std::size_t i = 0; i < body.size(); i += dim)
+        if (const std::optional<BodyMotion> &motion = motions[body[i]])
+          {
+            const Tensor<1, dim> moved =
+              motion->at({position.begin()[i], position.begin()[i + 1], position.begin()[i + 2]});
+            for (unsigned int d = 0; d < dim; ++d)
+              u.begin()[i + d] += moved[d];
+          }
     }
   } // namespace
 
@@ -177,30 +181,20 @@ namespace Touchstone
       return false;
     const unsigned int n       = step.solid.n_bodies();
     Motions            motions = guessed_motions(step, u);
-    Holds              holds;
-    holds.unknown.resize(n);
-    add_rows(step, motions, holds);
-    add_supports(step, u, holds);
-    Translations translations(n);
-    for (const Hold &hold : holds.of_bodies)
-      translations.add(hold.body, hold.direction, hold.motion);
-    translations.complete(step.solid.communicator);
-    std::vector<Tensor<1, dim>> closest(n);
-    for (const unsigned int body : step.unsupported)
-      closest[body] = translations.closest(body);
-    std::vector<int> stay = holds.unknown;
-    for (const Hold &hold : holds.of_bodies)
-      if (std::abs(hold.motion - hold.direction * closest[hold.body]) >
-          std::max(close * hold.size, close * closest[hold.body].norm()))
-        stay[hold.body] = 1;
+    const Holds        holds   = holds_of_bodies(step, u, motions);
+    std::vector<int>   stay    = holds.unknown;
     Utilities::MPI::max(stay, step.solid.communicator, stay);
+    const Motions translated = translations_to(holds.of_bodies, step),
+                  rolled     = rolls_to(holds.of_bodies, step);
     for (const unsigned int body : step.unsupported)
       {
+        const std::optional<BodyMotion> &motion =
+          translated[body] ? translated[body] : rolled[body];
         // Bodies that have a guess keep it.
-        if (!motions[body] || motions[body]->norm() > 0. || closest[body].norm() == 0.)
+        if (!motions[body] || motions[body]->shift.norm() > 0. || !motion || motion->rests())
           stay[body] = 1;
         if (stay[body] == 0)
-          motions[body] = closest[body];
+          motions[body] = motion;
       }
     leave_too_deep(step, motions, stay);
     bool moved = false;
@@ -208,8 +202,9 @@ namespace Touchstone
       if (step.unsupported.count(body) > 0 && stay[body] == 0)
         moved = true;
       else
-        closest[body] = 0.;
-    translate_bodies(step.solid, closest, u);
+        motions[body].reset();
+    if (moved)
+      move_bodies(step, motions, u);
     return moved;
   }
 } // namespace Touchstone
