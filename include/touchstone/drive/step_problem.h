@@ -222,6 +222,9 @@ namespace Touchstone
     /** Over all ranks, by pair. */
     std::vector<unsigned int>
     active_rows() const;
+    /** Those of them that are tied, or whose force is more than round-off. */
+    std::vector<unsigned int>
+    holding_rows() const;
     /** Commit the present state, which has these forces. */
     void
     keep(const StepForces &forces);
