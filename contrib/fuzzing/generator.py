@@ -4,14 +4,14 @@
 import dataclasses
 import random
 
-from . import fits, stacks
+from . import fits, rolling, stacks
 
 KINDS = (stacks.two,) * 6 + (stacks.row, stacks.corner, stacks.quarter, stacks.quarter,
                              fits.fit, fits.fit, fits.fit, fits.rigid, fits.between, fits.bore)
 # Kinds with four pairs came later, with a random stream of their own: other scenes of a seed are
-# those that they were before.
-FOUR_PAIRS = (stacks.row_of_four, stacks.table)
-SHARE_OF_FOUR_PAIRS = 0.05
+# those that they were before. So did what rolls.
+LATER = {"four pairs": (stacks.row_of_four, stacks.table), "rolling": (rolling.rolled,)}
+SHARE = 0.05  # of each of these
 # Lengths and stresses: N, mm, MPa as they are; SI; inch and psi; grams.
 UNITS = ((1.0, 1.0), (1.0, 1.0), (1e-3, 1e6), (1 / 25.4, 145.0), (1e3, 1e-6), (1e-6, 1e9))
 
@@ -25,9 +25,11 @@ def without_smoothing(pair):
 def scene(seed, index):
     """The scene @p index of a campaign."""
     rng, kinds = random.Random(f"{seed}/{index}"), KINDS
-    four = random.Random(f"{seed}/{index}/four pairs")
-    if four.random() < SHARE_OF_FOUR_PAIRS:
-        rng, kinds = four, FOUR_PAIRS
+    for name, later in LATER.items():
+        stream = random.Random(f"{seed}/{index}/{name}")
+        if stream.random() < SHARE:
+            rng, kinds = stream, later
+            break
     result = rng.choice(kinds)(rng)
     if rng.random() < 0.1:
         result = dataclasses.replace(result, settings=(("Discretisation/Degree", "2"),),

@@ -8,6 +8,8 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 // Momenta of the bodies, and what a change of the mesh takes of them: a rigid motion of each body
@@ -17,18 +19,19 @@ namespace Touchstone
   using namespace dealii;
 
   void
-  Dynamics::adopt(const std::vector<Vector>       &rates,
-                  const StepForces                &forces,
-                  const std::vector<BodyMomentum> &before)
+  Dynamics::adopt(const std::vector<Vector>                    &rates,
+                  const StepForces                             &forces,
+                  const std::vector<std::vector<BodyMomentum>> &before)
   {
     // The order of rates(): velocity, acceleration.
     v   = rates.front();
     a   = rates.back();
     old = forces;
 
-    // Interpolation on coarsened cells does not conserve momentum. What each body misses of it is
-    // given back by a rigid motion, one of those that its supports leave free: half of a body on a
-    // plane of symmetry moves on as the whole one does.
+    // Interpolation on coarsened cells conserves neither momentum nor the resultant of the forces
+    // of inertia, which is that of all others: as if a force acted in the step to come. What each
+    // body misses of both is given back by a rigid motion, one of those that its supports leave
+    // free: half of a body on a plane of symmetry moves on as the whole one does.
     const std::vector<RigidFrame> frames = rigid_frames(solid);
     std::vector<Vector>           motions;
     for (unsigned int k = 0; k < 2 * dim; ++k)
@@ -36,33 +39,33 @@ namespace Touchstone
     std::vector<std::vector<Numbers>> momenta;
     for (const Vector &motion : motions)
       momenta.push_back(rigid_momenta(momenta_of(motion), frames));
-    const std::vector<Numbers> were = rigid_momenta(before, frames),
-                               are  = rigid_momenta(momenta_of(v), frames);
-    for (unsigned int b = 0; b < before.size(); ++b)
+    const std::array<Vector *, 2>       now = {&v, &a};
+    std::array<std::vector<Numbers>, 2> missing;
+    for (unsigned int r = 0; r < now.size(); ++r)
+      {
+        missing[r]                     = rigid_momenta(before[r], frames);
+        const std::vector<Numbers> are = rigid_momenta(momenta_of(*now[r]), frames);
+        for (std::size_t b = 0; b < are.size(); ++b)
+          for (unsigned int k = 0; k < 2 * dim; ++k)
+            missing[r][b][k] -= are[b][k];
+      }
+    for (unsigned int b = 0; b < solid.bodies.size(); ++b)
       {
         const FullMatrix<double> free = free_motions(b, motions, forces.remove_support);
-        const unsigned int       n    = free.n();
-        if (n == 0)
+        if (free.n() == 0)
           continue;
-        // In the basis of the free motions: inertia * part = missing.
-        FullMatrix<double>     inertia(2 * dim), of_basis(2 * dim, n), small(n);
-        dealii::Vector<double> missing(2 * dim), rest(n), part(n), amplitudes(2 * dim);
+        FullMatrix<double> inertia(2 * dim);
         for (unsigned int k = 0; k < 2 * dim; ++k)
+          for (unsigned int i = 0; i < 2 * dim; ++i)
+            inertia(i, k) = momenta[k][b][i];
+        for (unsigned int r = 0; r < now.size(); ++r)
           {
-            missing(k) = were[b][k] - are[b][k];
-            for (unsigned int i = 0; i < 2 * dim; ++i)
-              inertia(i, k) = momenta[k][b][i];
+            const Numbers amplitudes = motion_with(missing[r][b], inertia, free);
+            for (std::size_t i = 0; i < body.size(); ++i)
+              if (body[i] == b)
+                for (unsigned int k = 0; k < 2 * dim; ++k)
+                  now[r]->begin()[i] += amplitudes[k] * motions[k].begin()[i];
           }
-        inertia.mmult(of_basis, free);
-        free.Tmmult(small, of_basis);
-        free.Tvmult(rest, missing);
-        small.gauss_jordan();
-        small.vmult(part, rest);
-        free.vmult(amplitudes, part);
-        for (std::size_t i = 0; i < body.size(); ++i)
-          if (body[i] == b)
-            for (unsigned int k = 0; k < 2 * dim; ++k)
-              v.begin()[i] += amplitudes(k) * motions[k].begin()[i];
       }
     // No step has found what the supports of this mesh add.
     Vector others(old.external);
@@ -70,6 +73,29 @@ namespace Touchstone
     others += old.normal;
     others += old.tangential;
     old.support = support_force(others, forces.remove_support);
+  }
+
+
+
+  Dynamics::Numbers
+  Dynamics::motion_with(const Numbers            &momentum,
+                        const FullMatrix<double> &inertia,
+                        const FullMatrix<double> &free)
+  {
+    // In the basis of the free motions: inertia * part = momentum.
+    const unsigned int     n = free.n();
+    FullMatrix<double>     of_basis(2 * dim, n), small(n);
+    dealii::Vector<double> rhs(momentum.begin(), momentum.end()), rest(n), part(n),
+      amplitudes(2 * dim);
+    inertia.mmult(of_basis, free);
+    free.Tmmult(small, of_basis);
+    free.Tvmult(rest, rhs);
+    small.gauss_jordan();
+    small.vmult(part, rest);
+    free.vmult(amplitudes, part);
+    Numbers result;
+    std::copy(amplitudes.begin(), amplitudes.end(), result.begin());
+    return result;
   }
 
 

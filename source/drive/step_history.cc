@@ -158,7 +158,7 @@ namespace Touchstone
       }
     for (const Vector *field : integration->rates())
       result.fields.push_back(*field);
-    result.momenta             = integration->momenta();
+    result.momenta             = integration->momenta_of_rates();
     result.committed_time      = committed_time;
     result.energies            = integration->committed_energies();
     result.largest_force_scale = largest_force_scale;

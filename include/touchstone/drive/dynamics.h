@@ -91,13 +91,18 @@ namespace Touchstone
       return {&v, &a};
     }
     void
-    adopt(const std::vector<Vector>       &rates,
-          const StepForces                &forces,
-          const std::vector<BodyMomentum> &before) override;
+    adopt(const std::vector<Vector>                    &rates,
+          const StepForces                             &forces,
+          const std::vector<std::vector<BodyMomentum>> &before) override;
     std::vector<BodyMomentum>
     momenta() const override
     {
       return momenta_of(v);
+    }
+    std::vector<std::vector<BodyMomentum>>
+    momenta_of_rates() const override
+    {
+      return {momenta_of(v), momenta_of(a)};
     }
 
   private:
@@ -167,6 +172,12 @@ namespace Touchstone
     /** Velocity of all nodes, each in rigid motion @p k of its body at its present position. */
     Vector
     moved_rigidly(unsigned int k, const std::vector<RigidFrame> &frames) const;
+    /** Amplitudes of the rigid motions with this momentum, or with that part of it which motions in
+     * the columns of @p free can have. @param inertia Momenta of the rigid motions, as columns. */
+    static Numbers
+    motion_with(const Numbers                    &momentum,
+                const dealii::FullMatrix<double> &inertia,
+                const dealii::FullMatrix<double> &free);
     /** Combinations of the rigid @p motions of body @p b that its supports do not resist, as
      * columns. Collective. */
     dealii::FullMatrix<double>

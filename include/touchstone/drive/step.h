@@ -104,14 +104,15 @@ namespace Touchstone
   {
     /** Displacement and contact of the committed state, and of the present one, and rates of
      * the former, as fields over the dofs. */
-    std::vector<Vector>       fields;
-    std::vector<BodyMomentum> momenta;
-    double                    committed_time = 0.;
-    Energies                  energies;
-    double                    largest_force_scale = 0.;
-    StepCounts                counts;
-    RigidTools::Transfer      tools;
-    StrayedBodies             strayed;
+    std::vector<Vector> fields;
+    /** TimeIntegration::momenta_of_rates(). */
+    std::vector<std::vector<BodyMomentum>> momenta;
+    double                                 committed_time = 0.;
+    Energies                               energies;
+    double                                 largest_force_scale = 0.;
+    StepCounts                             counts;
+    RigidTools::Transfer                   tools;
+    StrayedBodies                          strayed;
   };
 
   /**

@@ -83,6 +83,14 @@ namespace Touchstone
       return {};
     }
 
+    /** @brief Of each of rates() the momenta of the bodies if their nodes moved with it: those of
+     * the velocity, and the resultants of the forces of inertia. Collective. */
+    virtual std::vector<std::vector<BodyMomentum>>
+    momenta_of_rates() const
+    {
+      return {};
+    }
+
   protected:
     Energies committed;
   };
@@ -176,12 +184,13 @@ namespace Touchstone
 
     /**
      * @brief Continue on another mesh from the transferred rates(), the forces there at the
-     * committed state, and the momenta() before, which bodies without supports keep. Collective.
+     * committed state, and the momenta_of_rates() before, which bodies keep where their supports
+     * let them. Collective.
      */
     virtual void
     adopt(const std::vector<Vector> & /*rates*/,
           const StepForces & /*forces*/,
-          const std::vector<BodyMomentum> & /*before*/)
+          const std::vector<std::vector<BodyMomentum>> & /*before*/)
     {
     }
 
