@@ -39,7 +39,7 @@ namespace Touchstone
     std::vector<std::vector<Numbers>> momenta;
     for (const Vector &motion : motions)
       momenta.push_back(rigid_momenta(momenta_of(motion), frames));
-    const std::array<Vector *, 2>       now = {&v, &a};
+    const std::array<Vector *, 2>       now = {{&v, &a}};
     std::array<std::vector<Numbers>, 2> missing;
     for (unsigned int r = 0; r < now.size(); ++r)
       {
