@@ -60,6 +60,7 @@ namespace Touchstone
     without_rows_finder.emplace(pairs, this->supports, solid);
     method->reinit(all_rows);
     impulse_forces.reinit(all_rows);
+    former_friction_work.assign(pairs.size(), 0.);
     cyclic.reinit(pairs, solid.communicator);
     // The order of commit, rollback and of checkpoints: first the geometry, to which the rest
     // refers.

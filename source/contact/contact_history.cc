@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/archive/archive.h>
+#include <touchstone/base/exact_sum.h>
 #include <touchstone/contact/contact.h>
 
 // History of contact: pairs, friction and enforcement are Stateful and listed once, in `parts`.
@@ -8,6 +9,13 @@
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    const std::string former_work = "friction work of former rows";
+  }
+
+
 
   void
   Contact::commit()
@@ -35,6 +43,7 @@ namespace Touchstone
   Contact::save(ArchiveWriter &archive) const
   {
     save_nodes_without_rows(archive);
+    archive.put(former_work, former_friction_work);
     for (const Stateful *part : parts)
       part->save(archive);
   }
@@ -48,6 +57,9 @@ namespace Touchstone
     // committed displacement before the parts are loaded.
     present_time = archive.get<double>("committed time");
     load_nodes_without_rows(archive);
+    // Checkpoints of earlier versions have none.
+    if (archive.has(former_work))
+      former_friction_work = archive.get<std::vector<double>>(former_work);
     move(archive.field("displacement"));
     for (const auto &pair : pairs)
       pair->set_displacement(ghosted, present_time);
@@ -88,6 +100,32 @@ namespace Touchstone
     for (Vector &field : result)
       field.compress(VectorOperation::insert);
     return result;
+  }
+
+
+
+  std::vector<double>
+  Contact::friction_work() const
+  {
+    // Sums without round-off, which do not depend on the partition.
+    std::vector<ExactSum> sums(pairs.size());
+    for (const ContactRow &row : all_rows)
+      if (row.friction)
+        sums[row.pair].add(friction_rows.committed_history(row).work);
+    std::vector<double> result(former_friction_work);
+    for (std::size_t p = 0; p < result.size(); ++p)
+      result[p] += sums[p].value(solid.communicator);
+    return result;
+  }
+
+
+
+  void
+  Contact::keep_friction_work(const std::vector<double> &of_pairs)
+  {
+    const std::vector<double> taken_over = friction_work();
+    for (std::size_t p = 0; p < of_pairs.size(); ++p)
+      former_friction_work[p] += of_pairs[p] - taken_over[p];
   }
 
 

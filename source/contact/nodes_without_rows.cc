@@ -151,6 +151,7 @@ namespace Touchstone
   Contact::change_rows(const NodesWithoutRows &nodes, const Vector &u, const double time)
   {
     const std::vector<Vector> committed_fields = fields(/*of_committed=*/true);
+    const std::vector<double> work             = friction_work();
     std::vector<bool>         changed(pairs.size(), false);
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (const std::set<Index> of_pair = nodes.of_pair(p); of_pair != without_rows.of_pair(p))
@@ -175,6 +176,7 @@ namespace Touchstone
         adopt(row, committed_fields, /*history=*/true);
     for (Stateful *part : parts)
       part->commit();
+    keep_friction_work(work);
   }
 
 

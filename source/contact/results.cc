@@ -244,8 +244,9 @@ namespace Touchstone
         result.max_penetration = Utilities::MPI::max(result.max_penetration, communicator);
         result.active          = Utilities::MPI::sum(result.active, communicator);
         result.slip            = Utilities::MPI::sum(result.slip, communicator);
-        result.friction_work   = sums[p].friction_work.value(communicator);
-        result.stick           = Utilities::MPI::sum(result.stick, communicator);
+        result.friction_work =
+          sums[p].friction_work.value(communicator) + contact.friction_work_of_former_rows(p);
+        result.stick = Utilities::MPI::sum(result.stick, communicator);
       }
     return all;
   }

@@ -159,6 +159,7 @@ namespace Touchstone
     for (const Vector *field : integration->rates())
       result.fields.push_back(*field);
     result.momenta             = integration->momenta_of_rates();
+    result.friction_work       = contact.friction_work();
     result.committed_time      = committed_time;
     result.energies            = integration->committed_energies();
     result.largest_force_scale = largest_force_scale;
@@ -199,6 +200,7 @@ namespace Touchstone
         // guess.
         contact.update(u, committed_time);
         contact.adopt({fields.begin() + 1, middle}, true);
+        contact.keep_friction_work(before.friction_work);
         remember_contact();
         if (integration->dynamic())
           {

@@ -295,6 +295,23 @@ namespace Touchstone
     void
     adopt(const std::vector<Vector> &fields, bool history);
 
+    /** @brief Work against friction by pair until the committed state, force times length; what
+     * rows did that are no more is part of it. Collective. */
+    std::vector<double>
+    friction_work() const;
+
+    /** @brief Rows have been made anew, and what they have taken over of their histories is not all
+     * of the work @p of_pairs that friction_work() had before. Collective. */
+    void
+    keep_friction_work(const std::vector<double> &of_pairs);
+
+    /** @brief Of it what rows of pair @p p did that are no more, force times length. */
+    double
+    friction_work_of_former_rows(unsigned int p) const
+    {
+      return former_friction_work[p];
+    }
+
     /** @brief Time of the last update(). */
     double
     time() const
@@ -356,6 +373,8 @@ namespace Touchstone
     RowArray<ImpulseForce>                    impulse_forces;
     /** By pair; empty in statics and explicit dynamics. */
     std::vector<dealii::Tensor<1, dim>> mean_forces;
+    /** By pair: friction_work_of_former_rows(). Changes between steps alone. */
+    std::vector<double> former_friction_work;
     /** Of the committed state, and of the present one. */
     NodesWithoutRows                      without_rows;
     std::optional<NodesWithoutRowsFinder> without_rows_finder;

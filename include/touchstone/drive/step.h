@@ -105,6 +105,8 @@ namespace Touchstone
     /** Displacement and contact of the committed state, and of the present one, and rates of
      * the former, as fields over the dofs. */
     std::vector<Vector> fields;
+    /** Contact::friction_work(). */
+    std::vector<double> friction_work;
     /** TimeIntegration::momenta_of_rates(). */
     std::vector<std::vector<BodyMomentum>> momenta;
     double                                 committed_time = 0.;
