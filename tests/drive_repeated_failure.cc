@@ -40,9 +40,9 @@ main()
   const double none = std::numeric_limits<double>::quiet_NaN();
   add("before any iteration", InvertedCells("inverted"), none, 0, "");
   add("again", InvertedCells("inverted"), none, 0, "");
-  add("energy", EnergyGain("a gain", 0.02), 1e-12, 0, "d");
-  add("less energy", EnergyGain("a gain", 0.005), 1e-12, 0, "d");
-  add("as much", EnergyGain("a gain", 0.00501), 1e-12, 0, "d");
+  // Shorter steps gain less, if only from some size on.
+  add("energy", EnergyGain("a gain"), 1e-12, 0, "d");
+  add("energy again", EnergyGain("a gain"), 1e-12, 0, "d");
   // Where nodes are in balance nothing of the state tells attempts apart.
   add("a tool", NotBalanced("a tool", 0.1), 1e-14, 0, "e");
   add("another part is missing", NotBalanced("a tool", 0.03), 2e-14, 0, "e");

@@ -99,15 +99,14 @@ namespace Touchstone
                  left = parameters.gain_tolerance * end.largest - before;
     if (here > std::max(0.5 * left, 0.))
       throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
-                         " times the largest so far came from nowhere, " +
-                         std::to_string(here / end.largest) +
-                         " in this step ('Time integration/Gain tolerance')" +
-                         (new_mesh ? "; the mesh has changed in it, and stresses and histories "
-                                     "taken over to new points differ from those they come from: "
-                                     "refine before the motion begins ('Refinement/Cycles'), or "
-                                     "allow for more"
-                                   : ""),
-                       here / end.largest);
+                       " times the largest so far came from nowhere, " +
+                       std::to_string(here / end.largest) +
+                       " in this step ('Time integration/Gain tolerance')" +
+                       (new_mesh ? "; the mesh has changed in it, and stresses and histories "
+                                   "taken over to new points differ from those they come from: "
+                                   "refine before the motion begins ('Refinement/Cycles'), or "
+                                   "allow for more"
+                                 : ""));
     // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
     // estimated from the first guess.
     const double change = end.contact - integration->committed_energies().contact;

@@ -211,25 +211,12 @@ namespace Touchstone
     }
   };
 
-  /** @brief A step has gained energy that no load explains. */
+  /** @brief A step has gained energy that no load explains. It has no measure: a body that yields
+   * within a step may gain as much in the next halves of it, and less in shorter ones. */
   class EnergyGain : public NonConvergence
   {
   public:
-    /** @param gain Of the step, relative to the largest energy so far. */
-    EnergyGain(const std::string &reason, const double gain)
-      : NonConvergence(reason)
-      , gain(gain)
-    {
-    }
-
-    std::optional<double>
-    measure() const override
-    {
-      return gain;
-    }
-
-  private:
-    double gain;
+    using NonConvergence::NonConvergence;
   };
 } // namespace Touchstone
 
