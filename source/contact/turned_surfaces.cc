@@ -12,7 +12,8 @@
 #include <cmath>
 #include <cstdio>
 
-// What does not turn with the surfaces of a pair: distances of tied pairs (doc/theory.md 4.6).
+// What does not turn with the surfaces of a pair: distances of tied pairs (doc/theory.md 4.6), and
+// normals of small sliding.
 namespace Touchstone
 {
   using namespace dealii;
@@ -166,19 +167,64 @@ namespace Touchstone
                        " that its surfaces are placed with without their moment: " +
                        rounded(moment.norm()) + " is missing in the balance of moments" + remedy);
     }
+
+
+
+    /** Mean of 1 - cos(theta) over the normal forces of a pair, with theta the angle by which the
+     * slave surface has turned. Collective. */
+    double
+    part_lost_by_turning(const Contact &contact, const ContactPair &pair)
+    {
+      const Surface &slave = pair.slave();
+      const Vector  &u     = contact.ghosted_displacement();
+      double         lost = 0., forces = 0.;
+      for (const ContactRow &row : pair.rows())
+        if (const RowState &state = contact.state(row);
+            state.active() && state.lambda > 0. && !slave.faces_around(row.slave).empty())
+          {
+            const Tensor<2, dim> turn =
+              rotation(MeasuredFace::displaced(*slave.faces_around(row.slave).front().first, u));
+            // What turns about the normal keeps it.
+            lost += state.lambda * (1. - row.normal * (turn * row.normal));
+            forces += state.lambda;
+          }
+      lost   = Utilities::MPI::sum(lost, contact.communicator());
+      forces = Utilities::MPI::sum(forces, contact.communicator());
+      return forces > 0. ? lost / forces : 0.;
+    }
+
+    void
+    tell_of_normals(const Contact &contact, const ContactPair &pair, TurnedSurfaces &told)
+    {
+      constexpr double large = 1e-3, too_large = 0.1;
+      const double     part = part_lost_by_turning(contact, pair);
+      if (part <= large)
+        return;
+      const std::string what =
+        "contact pair '" + pair.parameters().name + "': its slave surface has turned by " +
+        rounded(std::acos(std::max(-1., 1. - part)) * 180. / numbers::PI) +
+        " degrees on average, and with 'Sliding = small' normals and partners are those of the "
+        "reference state. Take 'Sliding = finite'";
+      if (part > too_large && told.failure.empty())
+        told.failure = what;
+      else
+        told.warnings.push_back(what);
+    }
   } // namespace
 
 
 
-  std::vector<std::string>
+  TurnedSurfaces
   turned_surfaces(const Contact &contact)
   {
-    std::vector<std::string> result;
+    TurnedSurfaces result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
         if (pair.master() && pair.tied())
-          tell_of_distance(contact, pair, result);
+          tell_of_distance(contact, pair, result.warnings);
+        else if (pair.master() && pair.small_sliding())
+          tell_of_normals(contact, pair, result);
       }
     return result;
   }

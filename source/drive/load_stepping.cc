@@ -128,9 +128,15 @@ namespace Touchstone
     if (!turned.failure.empty())
       return turned.failure;
     if (!in_cycles)
-      for (const auto check : {unheld_edges, turned_surfaces})
-        for (const std::string &text : check(state.contact))
+      {
+        for (const std::string &text : unheld_edges(state.contact))
           warnings.add(text);
+        const TurnedSurfaces surfaces = turned_surfaces(state.contact);
+        for (const std::string &text : surfaces.warnings)
+          warnings.add(text);
+        if (!surfaces.failure.empty())
+          return surfaces.failure;
+      }
     for (const std::string &text : narrow.warnings)
       warnings.add(text);
     return "";

@@ -220,7 +220,14 @@ namespace Touchstone
       throw ToolSlides(name(direction) + " slides on the bodies in the whole step, although " +
                          "friction could hold it: they move it too far in one step",
                        step);
-    throw NothingResists("nothing resists the motion of " + name(direction) + " against its load");
+    // Statics cannot cross a gap: on the way nothing balances the load.
+    const bool in_the_air = std::abs(of_bodies) <= 1e-3 * std::abs(load);
+    throw NothingResists(
+      "nothing resists the motion of " + name(direction) + " against its load" +
+      (in_the_air
+         ? ", where it is now: if it is to close a gap first, place it without one, prescribe "
+           "the motion until it touches, or take inertia ('Time integration/Scheme')"
+         : ""));
   }
 
 

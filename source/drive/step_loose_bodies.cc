@@ -33,8 +33,11 @@ namespace Touchstone
   {
     std::vector<unsigned int> result(contact.n_pairs(), 0);
     const PressingRows        pressing(contact);
+    // Where all forces of the state are round-off none of them holds anything.
+    const bool forces = force_scale > 0.;
     for (const ContactRow &row : contact.rows())
-      result[row.pair] += contact.state(row).active() && (row.tied || pressing.contain(row));
+      result[row.pair] +=
+        contact.state(row).active() && (row.tied || (forces && pressing.contain(row)));
     Utilities::MPI::sum(result, solid.communicator, result);
     return result;
   }

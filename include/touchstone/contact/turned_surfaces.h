@@ -10,17 +10,30 @@
 
 namespace Touchstone
 {
+  /** @brief What there is to tell of turned_surfaces(), with place, size of the error and remedy,
+   * in words. */
+  struct TurnedSurfaces
+  {
+    std::vector<std::string> warnings;
+    /** Why the result cannot be right; empty if no pair has turned so far. */
+    std::string failure;
+  };
+
   /**
-   * @brief Tied pairs whose surfaces have turned farther than their rows can follow (doc/theory.md
-   * 4.6), each with place, size of the error and remedy, in words.
+   * @brief Pairs whose surfaces have turned farther than their rows can follow.
    *
-   * The distance that such a pair is placed with keeps the direction of the reference state where
+   * The distance that a tied pair is placed with keeps the direction of the reference state where
    * its rows leave it to itself (ContactPair::leave_offsets()), and forces pass it without their
-   * moment. It is zero where nodes lie on the other surface.
+   * moment (doc/theory.md 4.6). It is zero where nodes lie on the other surface.
+   *
+   * With small sliding normals are those of the reference state. Where the slave surface turns by
+   * theta a force along them has cos(theta) of itself along the present one: told of where 1 -
+   * cos(theta) is more than 1e-3 in the mean over the forces of a pair between bodies, and a failure
+   * from 0.1 on (26 degrees).
    *
    * The surfaces must be those of the last step. Collective.
    */
-  std::vector<std::string>
+  TurnedSurfaces
   turned_surfaces(const Contact &contact);
 } // namespace Touchstone
 
