@@ -208,4 +208,59 @@ for name, settings, ranks, bound in (
         ("degree 2", {"Discretisation/Degree": 2}, 1, 1e-6)):
     energy = run("turned_" + name.replace(" ", "_"), folder / "fit.prm", settings, ranks).column("energy: strain")
     check(abs(energy[-1] / energy[1] - 1) < bound, f"{name}: strain energy {energy[1]:.8g}, turned {energy[-1]:.8g}")
+# With small sliding normals stay what they were: two blocks that are pressed and turn together lost their force with
+# exit code 0 and no warning.
+ANGLE = "{degrees}*pi/180*max(t - 1, 0)"
+
+
+def turned_blocks(name, degrees, sliding, fails=False):
+    angle = ANGLE.format(degrees=degrees)
+    text = "set Bodies = lower, upper\nset Contact pairs = contact\n"
+    for body, low, side, press in ("lower", -1, "bottom", "0"), ("upper", 0, "top", "0.02*min(t, 1)"):
+        text += f"""subsection Body {body}
+  set Boundary conditions = {side}
+  subsection Boundary {side}
+    set Displacement x = x*(cos({angle}) - 1) + (z - {press})*sin({angle})
+    set Displacement y = 0
+    set Displacement z = -x*sin({angle}) + (z - {press})*cos({angle}) - z
+  end
+  subsection Geometry
+    set Type         = box
+    set Lower corner = 0, 0, {low}
+    set Upper corner = 1, 1, {low + 1}
+    set Cells        = 2, 2, 2
+  end
+  subsection Material
+    set Law           = neo-Hookean
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+"""
+    text += f"""subsection Contact pair contact
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top
+  set Sliding           = {sliding}
+end
+subsection Load stepping
+  set End time = 2
+  set Steps    = 8
+end
+"""
+    (folder / f"{name}.prm").write_text(text, encoding="utf-8")
+    return run(name, f"{name}.prm", {}, fails=fails)
+
+
+def small_sliding_told(result):
+    return any("'Sliding = small'" in text for text in result.summary["warnings"])
+
+
+energy = turned_blocks("finite_60", 60, "finite").column("energy: strain")
+below("finite sliding, 60 degrees", relative(energy[-1], energy[3]), 1e-7)
+failed = turned_blocks("small_60", 60, "small", fails=True)
+check("'Sliding = small'" in failed.text, f"{failed}: {failed.text[-300:]}")
+check(small_sliding_told(turned_blocks("small_5", 5, "small")), "5 degrees: no warning")
+check(not small_sliding_told(turned_blocks("small_1", 1, "small")), "1 degree: a warning")
 finish()

@@ -57,8 +57,7 @@ namespace Touchstone
         if (system.takes_multipliers && !system.keep_symmetric)
           {
             for (const ContactRow &row : contact.rows())
-              if (row_states[row].active() && row.friction && row.derivative &&
-                  refers_to_others(row))
+              if (row_states[row].active() && row.derivative && refers_to_others(row))
                 kept.insert(row.index);
             eliminated = active_slaves(contact, communicator);
           }
@@ -193,9 +192,9 @@ namespace Touchstone
       /**
        * Whether the assumption of adjust() would neglect too large a part of a condition of the
        * row. The error returns in each iteration, so that Newton's method converges linearly, with
-       * about this part as its factor: hardly at all if only one or two nodes touch or a face is
-       * covered in part. Used with friction only: without it, the frozen iterations before have
-       * reduced the error, and multipliers would alternate where the gaps have kinks.
+       * about this part as its factor: hardly or not at all if only one or two nodes touch or a
+       * face is covered in part. Rows have derivatives in consistent iterations alone, whose system
+       * is unsymmetric anyway.
        */
       bool
       refers_to_others(const ContactRow &row) const
