@@ -196,16 +196,16 @@ namespace Touchstone
     void
     tell_of_normals(const Contact &contact, const ContactPair &pair, TurnedSurfaces &told)
     {
-      constexpr double large = 1e-3, too_large = 0.1;
+      constexpr double tells_from = 1e-3, fails_from = 0.1;
       const double     part = part_lost_by_turning(contact, pair);
-      if (part <= large)
+      if (part <= tells_from)
         return;
       const std::string what =
         "contact pair '" + pair.parameters().name + "': its slave surface has turned by " +
         rounded(std::acos(std::max(-1., 1. - part)) * 180. / numbers::PI) +
         " degrees on average, and with 'Sliding = small' normals and partners are those of the "
         "reference state. Take 'Sliding = finite'";
-      if (part > too_large && told.failure.empty())
+      if (part > fails_from && told.failure.empty())
         told.failure = what;
       else
         told.warnings.push_back(what);

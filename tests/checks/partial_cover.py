@@ -2,7 +2,7 @@
 """Averaged rows where slave faces are covered in part: pressures bounded wherever the edge of the
 master surface lies, forces exact and smooth as it moves, none between bodies that only touch."""
 
-from touchstone_test import STEPS, below, checks, finish, relative, run
+from touchstone_test import STEPS, below, check, checks, finish, relative, run, same
 
 # Pressed with 10; with the basis dual on the covered part alone 16, 50, 344 for 1.2, 1.05, 1.01.
 for width in 1.0001, 1.01, 1.05, 1.18, 1.25, 1.32, 1.4999:
