@@ -28,8 +28,8 @@ namespace Touchstone
    *
    * With small sliding normals are those of the reference state. Where the slave surface turns by
    * theta a force along them has cos(theta) of itself along the present one: told of where 1 -
-   * cos(theta) is more than 1e-3 in the mean over the forces of a pair between bodies, and a failure
-   * from 0.1 on (26 degrees).
+   * cos(theta) is more than 1e-3 in the mean over the forces of a pair between bodies, and a
+   * failure from 0.1 on (26 degrees).
    *
    * The surfaces must be those of the last step. Collective.
    */
