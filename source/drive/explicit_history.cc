@@ -5,6 +5,7 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/explicit/inverted_cells.h>
+#include <touchstone/solid/turned_bodies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,16 +69,22 @@ namespace Touchstone
     const double by_springs = std::max(0., held_by_springs - std::max(0., end.contact));
     const double gain       = end.gain() + by_springs;
     if (smallest_part <= 1. && gain > std::max(tolerance * end.largest, round_off_of_energies()))
-      throw ExplicitFailure(
-        "energy " + std::to_string(gain / end.largest) +
-        " times the largest so far came from nowhere ('Time "
-        "integration/Gain tolerance'): " +
-        (by_springs + std::max(0., -end.contact) > 0.5 * gain &&
-             contact.enforcement().impulse_rule()->springs()
-           ? "contact springs gain energy, take a smaller 'Courant factor' or "
-             "'Penalty factor', or 'Contact/Enforcement = forward increment'"
-           : "the motion is not stable, take a smaller 'Courant factor' or 'Step "
-             "check interval'"));
+      {
+        // No step is short enough for these.
+        if (const std::string turned = turned_bodies(solid, solid.ghosted(displacement)).failure;
+            !turned.empty())
+          throw ExplicitFailure(turned);
+        throw ExplicitFailure(
+          "energy " + std::to_string(gain / end.largest) +
+          " times the largest so far came from nowhere ('Time "
+          "integration/Gain tolerance'): " +
+          (by_springs + std::max(0., -end.contact) > 0.5 * gain &&
+               contact.enforcement().impulse_rule()->springs()
+             ? "contact springs gain energy, take a smaller 'Courant factor' or "
+               "'Penalty factor', or 'Contact/Enforcement = forward increment'"
+             : "the motion is not stable, take a smaller 'Courant factor' or 'Step "
+               "check interval'"));
+      }
     // After what is not stable, which inverts cells, too.
     if (smallest_part <= 1.)
       check_inverted();
