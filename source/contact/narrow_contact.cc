@@ -128,11 +128,11 @@ namespace Touchstone
 
 
 
-  NarrowContact
+  EndFindings
   narrow_contact(const Contact &contact)
   {
-    NarrowContact result;
-    const auto    springs = left_penetration(contact);
+    EndFindings result;
+    const auto  springs = left_penetration(contact);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair     = contact.pair(p);

@@ -194,7 +194,7 @@ namespace Touchstone
     }
 
     void
-    tell_of_normals(const Contact &contact, const ContactPair &pair, TurnedSurfaces &told)
+    tell_of_normals(const Contact &contact, const ContactPair &pair, EndFindings &told)
     {
       constexpr double tells_from = 1e-3, fails_from = 0.1;
       const double     part = part_lost_by_turning(contact, pair);
@@ -205,19 +205,16 @@ namespace Touchstone
         rounded(std::acos(std::max(-1., 1. - part)) * 180. / numbers::PI) +
         " degrees on average, and with 'Sliding = small' normals and partners are those of the "
         "reference state. Take 'Sliding = finite'";
-      if (part > fails_from && told.failure.empty())
-        told.failure = what;
-      else
-        told.warnings.push_back(what);
+      told.add(what, part > fails_from);
     }
   } // namespace
 
 
 
-  TurnedSurfaces
+  EndFindings
   turned_surfaces(const Contact &contact)
   {
-    TurnedSurfaces result;
+    EndFindings result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);

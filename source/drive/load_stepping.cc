@@ -118,27 +118,27 @@ namespace Touchstone
     give_back_free_memory();
     const StepState state = problem->state();
     // In explicit runs bodies may hit each other's edges at any moment.
-    const bool          in_cycles = problem->cycle_counts() != nullptr;
-    const NarrowContact narrow    = in_cycles ? NarrowContact() : narrow_contact(state.contact);
+    const bool        in_cycles = problem->cycle_counts() != nullptr;
+    const EndFindings narrow    = in_cycles ? EndFindings() : narrow_contact(state.contact);
     if (!narrow.failure.empty())
       return narrow.failure;
-    const TurnedBodies turned = turned_bodies(solid, state.ghosted_displacement());
-    for (const std::string &text : turned.warnings)
-      warnings.add(text);
-    if (!turned.failure.empty())
-      return turned.failure;
+    const auto tell = [this](const std::vector<std::string> &texts) {
+      for (const std::string &text : texts)
+        warnings.add(text);
+    };
+    const EndFindings bodies = turned_bodies(solid, state.ghosted_displacement());
+    tell(bodies.warnings);
+    if (!bodies.failure.empty())
+      return bodies.failure;
     if (!in_cycles)
       {
-        for (const std::string &text : unheld_edges(state.contact))
-          warnings.add(text);
-        const TurnedSurfaces surfaces = turned_surfaces(state.contact);
-        for (const std::string &text : surfaces.warnings)
-          warnings.add(text);
+        tell(unheld_edges(state.contact));
+        const EndFindings surfaces = turned_surfaces(state.contact);
+        tell(surfaces.warnings);
         if (!surfaces.failure.empty())
           return surfaces.failure;
       }
-    for (const std::string &text : narrow.warnings)
-      warnings.add(text);
+    tell(narrow.warnings);
     return "";
   }
 

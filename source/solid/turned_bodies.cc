@@ -89,10 +89,10 @@ namespace Touchstone
 
 
 
-  TurnedBodies
+  EndFindings
   turned_bodies(const Solid &solid, const Vector &u)
   {
-    TurnedBodies             result;
+    EndFindings              result;
     const std::vector<Means> of_bodies = means(solid, u);
     for (std::size_t b = 0; b < of_bodies.size(); ++b)
       if (const double size = of_bodies[b].strain; size > large)
@@ -111,10 +111,7 @@ namespace Touchstone
             "modulus. Take a law that turns with the body: 'St. Venant-Kirchhoff' or "
             "'neo-Hookean', 'finite-strain von Mises' for plasticity";
           // A bar whose parts alone have turned has the deflection of linear theory.
-          if (strain_of_turn(of_bodies[b].gradient) > too_large && result.failure.empty())
-            result.failure = what;
-          else
-            result.warnings.push_back(what);
+          result.add(what, strain_of_turn(of_bodies[b].gradient) > too_large);
         }
     return result;
   }

@@ -3,23 +3,14 @@
 #ifndef touchstone_contact_narrow_contact_h
 #define touchstone_contact_narrow_contact_h
 
+#include <touchstone/base/end_findings.h>
 #include <touchstone/contact/contact.h>
 
 #include <set>
 #include <string>
-#include <vector>
 
 namespace Touchstone
 {
-  /** @brief What a run says of contact that slave faces do not resolve. */
-  struct NarrowContact
-  {
-    std::vector<std::string> warnings;
-    /** Why the result cannot be right: where the forces are off by a factor such an overlap is
-     * deeper than a fifth of a slave face. Empty if there is none so deep. */
-    std::string failure;
-  };
-
   /**
    * @brief Pairs whose contact is so narrow that their slave faces do not resolve it, in words with
    * place and remedy (doc/theory.md 4.1).
@@ -27,11 +18,12 @@ namespace Touchstone
    * The surfaces overlap between slave nodes that carry a force. Let the overlap of face f be d_f,
    * and the stiffness of its material behind it E A_f/h_f. Where the forces sum d_f E A_f/h_f that
    * would take the overlaps away are several times those that the rows carry
-   * (Tolerances::narrow_contact), the latter say little of the force.
+   * (Tolerances::narrow_contact), the latter say little of the force. It is a failure where such an
+   * overlap is deeper than a fifth of a slave face.
    *
    * Collective.
    */
-  NarrowContact
+  EndFindings
   narrow_contact(const Contact &contact);
 
   /** @brief Looks whether one of @p bodies, which nothing but contact holds, lies deeper than a

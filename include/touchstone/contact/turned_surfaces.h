@@ -3,24 +3,14 @@
 #ifndef touchstone_contact_turned_surfaces_h
 #define touchstone_contact_turned_surfaces_h
 
+#include <touchstone/base/end_findings.h>
 #include <touchstone/contact/contact.h>
-
-#include <string>
-#include <vector>
 
 namespace Touchstone
 {
-  /** @brief What there is to tell of turned_surfaces(), with place, size of the error and remedy,
-   * in words. */
-  struct TurnedSurfaces
-  {
-    std::vector<std::string> warnings;
-    /** Why the result cannot be right; empty if no pair has turned so far. */
-    std::string failure;
-  };
-
   /**
-   * @brief Pairs whose surfaces have turned farther than their rows can follow.
+   * @brief Pairs whose surfaces have turned farther than their rows can follow, with place, size of
+   * the error and remedy.
    *
    * The distance that a tied pair is placed with keeps the direction of the reference state where
    * its rows leave it to itself (ContactPair::leave_offsets()), and forces pass it without their
@@ -33,7 +23,7 @@ namespace Touchstone
    *
    * The surfaces must be those of the last step. Collective.
    */
-  TurnedSurfaces
+  EndFindings
   turned_surfaces(const Contact &contact);
 } // namespace Touchstone
 

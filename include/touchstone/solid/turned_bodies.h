@@ -3,21 +3,11 @@
 #ifndef touchstone_solid_turned_bodies_h
 #define touchstone_solid_turned_bodies_h
 
+#include <touchstone/base/end_findings.h>
 #include <touchstone/solid/solid.h>
-
-#include <string>
-#include <vector>
 
 namespace Touchstone
 {
-  /** @brief What there is to tell of turned_bodies(). */
-  struct TurnedBodies
-  {
-    std::vector<std::string> warnings;
-    /** Why the result cannot be right; empty if no body has turned so far. */
-    std::string failure;
-  };
-
   /**
    * @brief Bodies at small strain that have turned so far that their strains are wrong
    * (doc/theory.md 2.1), each with the error and the remedy, in words.
@@ -29,7 +19,7 @@ namespace Touchstone
    *
    * @param u Displacement with ghosts. Collective.
    */
-  TurnedBodies
+  EndFindings
   turned_bodies(const Solid &solid, const Vector &u);
 } // namespace Touchstone
 
