@@ -65,6 +65,14 @@ for load, warned in ("5*t", ["strip"]), ("0.5*t", []):
     result = run(f"bent by {load}", checks.parent / "large_bending.prm",
                  {"Body strip/Material/Law": "linear elastic", "Body strip/Boundary right/Traction z": load})
     check(told(result, ["strip"]) == warned, f"{result}: {result.summary['warnings']}")
+# Held at both ends its halves turn against each other, and it has not turned as a whole: nothing was said of that.
+HELD = {f"Body strip/Boundary right/Displacement {axis}": "0" for axis in "xyz"}
+for load, warned in ("20*t", ["strip"]), ("5*t", []):
+    result = run(f"bent between by {load}", checks.parent / "large_bending.prm",
+                 {"Body strip/Material/Law": "linear elastic", "Body strip/Boundary right/Traction z": "", **HELD,
+                  "Body strip/Body force z": load})
+    check(told(result, ["strip"]) == warned, f"{result}: {result.summary['warnings']}")
+
 # A cube that begins turned by 60 degrees, and spins, in explicit dynamics: energy comes from its law, and no
 # 'Courant factor' helps, which was the advice.
 (folder / "spinning.prm").write_text("""set Bodies = cube
