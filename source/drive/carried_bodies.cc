@@ -5,7 +5,6 @@
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,27 +148,6 @@ namespace Touchstone
           result[body] = closest[body];
       return result;
     }
-
-
-
-    /** Add the motions to a displacement. */
-    void
-    move_bodies(const StepOfBodies &step, const Motions &motions, Vector &u)
-    {
-      // Present positions, as a vector over the dofs.
-      Vector position(u);
-      VectorTools::get_position_vector(step.solid.mapping, step.solid.dof_handler, position);
-      position += step.committed_u;
-      const std::vector<unsigned int> body = bodies_of_unknowns(step.solid);
-      for (std::size_t i = 0; i < body.size(); i += dim)
-        if (const std::optional<BodyMotion> &motion = motions[body[i]])
-          {
-            const Tensor<1, dim> moved =
-              motion->at({position.begin()[i], position.begin()[i + 1], position.begin()[i + 2]});
-            for (unsigned int d = 0; d < dim; ++d)
-              u.begin()[i + d] += moved[d];
-          }
-    }
   } // namespace
 
 
@@ -204,7 +182,7 @@ namespace Touchstone
       else
         motions[body].reset();
     if (moved)
-      move_bodies(step, motions, u);
+      move_bodies(step.solid, motions, step.committed_u, u);
     return moved;
   }
 } // namespace Touchstone

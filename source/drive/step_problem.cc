@@ -203,6 +203,7 @@ namespace Touchstone
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
           n_iterations += newton.solve(*this, observer, /*least=*/1);
+        n_iterations += take_out_free_motion(newton, observer);
         forget_increment();
         if (round == most_rounds)
           break;

@@ -39,6 +39,7 @@ namespace Touchstone
   StepSystem::begin_step()
   {
     free_motions.clear();
+    holding.clear();
     loose.clear();
   }
 
@@ -282,8 +283,10 @@ namespace Touchstone
         supports.insert(supports.end(), springs.begin(), springs.end());
       }
     const FreeMotion motion = modes.free_motion(supports);
+    holding.clear();
     if (motion.n_modes == 0)
       return;
+    holding = std::move(supports);
     // The shift is chosen by the distance that a body may move in one iteration. Before contact:
     // about the smallest open gap, so that the body does not pass through the surface that will
     // hold it. In contact the body can still slide: there the shift must outweigh the geometric
@@ -333,6 +336,23 @@ namespace Touchstone
     system->diagonal_shift = modes.stabilisation(motion, state.unbalanced, distance, smallest);
     free_motions           = motion.description;
     loose.insert(motion.bodies.begin(), motion.bodies.end());
+  }
+
+
+
+  FreeMotion
+  StepSystem::undetermined_motion() const
+  {
+    // The same on all ranks but where the conditions are.
+    if (everywhere(holding.empty()))
+      return FreeMotion();
+    std::vector<Condition> resisting(holding);
+    for (const ContactRow &row : parts.contact.rows())
+      {
+        const auto directions = along_surface(row, parts.contact.state(row));
+        resisting.insert(resisting.end(), directions.begin(), directions.end());
+      }
+    return modes.free_motion(resisting);
   }
 
 

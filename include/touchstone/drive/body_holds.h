@@ -28,9 +28,6 @@ namespace Touchstone
     double time;
   };
 
-  /** @brief The motions of bodies by their numbers, of those that have a known one. */
-  using Motions = std::vector<std::optional<BodyMotion>>;
-
   /** @brief The motion of what a row faces, if it is known; length. @param motions Of the bodies.
    */
   std::optional<dealii::Tensor<1, dim>>

@@ -4,14 +4,18 @@
 #define touchstone_drive_body_motion_h
 
 #include <touchstone/base/types.h>
+#include <touchstone/solid/solid.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/physics/transformations.h>
 
+#include <optional>
+#include <vector>
+
 namespace Touchstone
 {
-  /** @brief A rigid motion that a first guess gives a body. */
+  /** @brief A rigid motion that is given to a body. */
   struct BodyMotion
   {
     /** Of the centre, length. */
@@ -40,6 +44,14 @@ namespace Touchstone
                distance;
     }
   };
+
+  /** @brief The motions of bodies by their numbers, of those that have a known one. */
+  using Motions = std::vector<std::optional<BodyMotion>>;
+
+  /** @brief Add the motions to a displacement @p u. @param start Displacement from which they
+   * start. Both over the owned dofs; length. */
+  void
+  move_bodies(const Solid &solid, const Motions &motions, const Vector &start, Vector &u);
 } // namespace Touchstone
 
 #endif

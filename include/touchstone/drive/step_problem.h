@@ -87,6 +87,11 @@ namespace Touchstone
     void
     forget_increment();
 
+    /** Of the balanced states that differ by a rigid motion which nothing resists, find the one
+     * next to the start of the step. @return the number of linear solves. */
+    unsigned int
+    take_out_free_motion(const Newton &newton, const Newton::Observer &observer);
+
     /** Start a step to time @p t from the committed state. */
     void
     begin_step(double t);

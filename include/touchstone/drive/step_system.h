@@ -129,6 +129,11 @@ namespace Touchstone
       return free_motions;
     }
 
+    /** @brief The rigid motions that neither the conditions of the last assemble() nor friction
+     * resist: a balanced state stays balanced in them. Static steps alone have any. Collective. */
+    FreeMotion
+    undetermined_motion() const;
+
     /** @brief The motions that supports leave free, in words, by check_bodies_without_support(). */
     const std::string &
     unsupported() const
@@ -175,6 +180,8 @@ namespace Touchstone
     /** Solution of the dofs beyond the displacements: multipliers. */
     std::vector<double> extra;
     std::string         free_motions, free_parts;
+    /** What holds the bodies of the last assemble(); empty if it leaves them no motion. */
+    std::vector<Condition> holding;
     /** By supports alone. */
     FreeMotion             left_free;
     std::set<unsigned int> loose;

@@ -79,9 +79,18 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row, const RowState &state)
   {
+    if (state.status == ContactStatus::stick && !state.fully_constrained() && !state.dropped())
+      return along_surface(row, state);
+    return {};
+  }
+
+
+
+  std::vector<Condition>
+  along_surface(const ContactRow &row, const RowState &state)
+  {
     std::vector<Condition> conditions;
-    if (row.friction && state.status == ContactStatus::stick && !state.fully_constrained() &&
-        !state.dropped())
+    if (row.friction && state.active())
       for (const Tensor<1, dim> &tangent : row.friction->kinematics.tangents)
         {
           conditions.push_back(blank_condition(row));

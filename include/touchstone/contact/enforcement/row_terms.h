@@ -40,6 +40,11 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row, const RowState &state);
 
+  /** @brief The displacements that friction resists, whether the row sticks or slips: along the
+   * surface. As conditions without value. None of rows without friction or contact. */
+  std::vector<Condition>
+  along_surface(const ContactRow &row, const RowState &state);
+
   /** @brief The directions in which friction resists an increment like a spring: along the surface
    * where the row sticks elastically, across the slip where it slips. As conditions without
    * value, for a change of basis that makes their elongations dofs (doc/theory.md 7, equation

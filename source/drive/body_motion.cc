@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/drive/body_motion.h>
+#include <touchstone/solid/bodies.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  move_bodies(const Solid &solid, const Motions &motions, const Vector &start, Vector &u)
+  {
+    // Present positions, as a vector over the dofs.
+    Vector position(u);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
+    position += start;
+    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+    for (std::size_t i = 0; i < body.size(); i += dim)
+      if (const std::optional<BodyMotion> &motion = motions[body[i]])
+        {
+          const Tensor<1, dim> moved =
+            motion->at({position.begin()[i], position.begin()[i + 1], position.begin()[i + 2]});
+          for (unsigned int d = 0; d < dim; ++d)
+            u.begin()[i + d] += moved[d];
+        }
+  }
+} // namespace Touchstone
