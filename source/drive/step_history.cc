@@ -47,7 +47,9 @@ namespace Touchstone
     committed_time      = time;
     largest_force_scale = std::max(largest_force_scale, force_scale);
     remember_contact();
-    new_mesh = false;
+    new_mesh        = false;
+    without_springs = false;
+    springs.detach();
   }
 
 
@@ -120,6 +122,8 @@ namespace Touchstone
   void
   StepProblem::rollback()
   {
+    without_springs = drops_springs();
+    springs.detach();
     u = committed_u;
     for (Stateful *part : parts)
       part->rollback();
@@ -136,8 +140,10 @@ namespace Touchstone
   {
     if (guessed)
       return "from the displacement that the step begins with";
-    if (forcing_term.next_attempt_differs() && system->may_change_linearisation())
+    if (changes_linearisation())
       return "linearised consistently from the first iteration on";
+    if (drops_springs())
+      return "without springs";
     return "";
   }
 

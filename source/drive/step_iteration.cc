@@ -71,6 +71,12 @@ namespace Touchstone
     // Time integration weighs the forces at both ends of the step and adds inertia. Forces on
     // hanging nodes count for the nodes that these follow.
     integration->balance(u, external, internal, applied);
+    if (springs.act())
+      {
+        const Vector of_springs = springs.forces(u);
+        spring_force            = of_springs.l2_norm();
+        applied += of_springs;
+      }
     without_contact = applied;
     solid.condense(without_contact);
   }
@@ -116,6 +122,7 @@ namespace Touchstone
     constexpr double small_force = 1e-3, largest_round_off = 1e-6;
     force_scale        = largest_round_off * present > round_off ? present : 0.;
     const double scale = std::max(present, small_force * largest_force_scale);
+    spring_share       = scale > 0. ? spring_force / scale : 0.;
     state.force        = std::sqrt(left);
     state.residual     = scale > 0. ? state.force / scale : 0.;
     relative_residual  = state.residual;
@@ -179,7 +186,8 @@ namespace Touchstone
                       unbalanced,
                       relative_residual,
                       forcing_term.tolerance(),
-                      forcing_term.slow()});
+                      forcing_term.slow(),
+                      springs});
   }
 
 

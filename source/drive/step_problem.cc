@@ -198,7 +198,7 @@ namespace Touchstone
       {
         // A guess may balance what no system of equations has been made for: rows that conflict
         // with supports are found in it.
-        n_iterations += newton.solve(*this, observer, /*least=*/guessed ? 1 : 0);
+        n_iterations += solve_with_springs(newton, observer, /*least=*/guessed ? 1 : 0);
         // A correction may be smaller than the tolerance of gaps: without a solve the forces would
         // stay as they were, and the next correction would be made for them once more.
         while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
@@ -294,7 +294,8 @@ namespace Touchstone
     const PointsInContact points = points_in_contact(contact);
     result.remarks               = remarks(points.n);
     result.warnings              = check_loose_bodies();
-    result.warnings.insert(result.warnings.end(), points.warnings.begin(), points.warnings.end());
+    for (const std::vector<std::string> &more : {points.warnings, check_springs()})
+      result.warnings.insert(result.warnings.end(), more.begin(), more.end());
     check_contact();
     result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;

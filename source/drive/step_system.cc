@@ -267,6 +267,27 @@ namespace Touchstone
 
 
 
+  void
+  StepSystem::hold_loosely_held(const State &state, std::vector<Condition> holding)
+  {
+    if (!state.springs.attached())
+      return;
+    // Facets that strain has tilted against each other resist a motion along them a little.
+    constexpr double little  = 1e-3;
+    bool             pressed = false;
+    for (const ContactRow &row : parts.contact.rows())
+      {
+        pressed               = pressed || parts.contact.state(row).active();
+        const auto directions = along_surface(row, parts.contact.state(row));
+        holding.insert(holding.end(), directions.begin(), directions.end());
+      }
+    state.springs.act_on(everywhere(!pressed) ? FreeMotion() : modes.free_motion(holding, little));
+    if (state.springs.act())
+      system->diagonal_shift = state.springs.stiffness();
+  }
+
+
+
   // Bodies held by contact alone (doc/theory.md 9): where the accepted conditions leave rigid
   // motions free, a diagonal shift on these bodies keeps the increment finite. It is not in the
   // residual, so the equilibrium does not depend on it.
@@ -282,6 +303,7 @@ namespace Touchstone
         // Springs of stick hold a body against sliding although they impose no condition.
         supports.insert(supports.end(), springs.begin(), springs.end());
       }
+    hold_loosely_held(state, supports);
     const FreeMotion motion = modes.free_motion(supports);
     holding.clear();
     if (motion.n_modes == 0)
@@ -333,8 +355,12 @@ namespace Touchstone
         distance = 1e-3 * size;
         smallest = in_contact;
       }
-    system->diagonal_shift = modes.stabilisation(motion, state.unbalanced, distance, smallest);
-    free_motions           = motion.description;
+    const Vector shift = modes.stabilisation(motion, state.unbalanced, distance, smallest);
+    if (system->diagonal_shift.size() == 0)
+      system->diagonal_shift = shift;
+    else
+      system->diagonal_shift += shift;
+    free_motions = motion.description;
     loose.insert(motion.bodies.begin(), motion.bodies.end());
   }
 

@@ -40,7 +40,8 @@ namespace Touchstone
                       unbalanced,
                       relative_residual,
                       scene.linear_solver.tolerance,
-                      forcing_term.slow()});
+                      forcing_term.slow(),
+                      springs});
     Vector response(solid.zero_vector());
     system->solve(response);
     // As residual() has left them.

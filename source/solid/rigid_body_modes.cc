@@ -134,7 +134,7 @@ namespace Touchstone
    * best-resisted one (a resistance over a hundredth of a body's size is 1e4 times larger).
    * Collective. */
   FreeMotion
-  RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
+  RigidBodyModes::free_motion(const std::vector<Condition> &conditions, const double resisted) const
   {
     const std::vector<double> gram    = gram_matrix(conditions);
     const unsigned int        n       = 6 * solid.bodies.size();
@@ -155,7 +155,7 @@ namespace Touchstone
         // iteration, as LAPACK's syevx has them, need not converge.
         matrix.compute_svd();
         const auto is_free = [&](const unsigned int k) {
-          return matrix.singular_value(k) <= 1e-8 * largest;
+          return matrix.singular_value(k) <= resisted * largest;
         };
         // In descending order.
         unsigned int first = n;

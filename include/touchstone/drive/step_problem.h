@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/forcing_term.h>
+#include <touchstone/drive/holding_springs.h>
 #include <touchstone/drive/pretension.h>
 #include <touchstone/drive/rigid_tools.h>
 #include <touchstone/drive/step.h>
@@ -87,6 +88,12 @@ namespace Touchstone
     void
     forget_increment();
 
+    /** Solve with bodies on springs against motions that next to nothing resists, which are made
+     * softer, and taken away where they hold more than facets would. @param least See
+     * Newton::solve(). @return the number of linear solves. */
+    unsigned int
+    solve_with_springs(const Newton &newton, const Newton::Observer &observer, unsigned int least);
+
     /** Of the balanced states that differ by a rigid motion which nothing resists, find the one
      * next to the start of the step. @return the number of linear solves. */
     unsigned int
@@ -99,6 +106,9 @@ namespace Touchstone
     /** See findings(). */
     std::vector<std::string>
     check_loose_bodies() const;
+    /** See findings(). Of springs that carry more than round-off. */
+    std::vector<std::string>
+    check_springs() const;
     /** See findings(). @throws UnresolvedContactFailure */
     void
     check_contact() const;
@@ -173,9 +183,25 @@ namespace Touchstone
     double relative_residual = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
-    double        diameter = 0., missed = 0.;
-    ForcingTerm   forcing_term;
-    StrayedBodies strayed;
+    double         diameter = 0., missed = 0.;
+    ForcingTerm    forcing_term;
+    StrayedBodies  strayed;
+    HoldingSprings springs;
+    /** Norm of their forces, and the same relative to the forces that act, while they do. */
+    double spring_force = 0., spring_share = 0.;
+    /** This attempt at the step is made without them. */
+    bool without_springs = false;
+    /** What the attempt after this one does, see next_attempt(). */
+    bool
+    changes_linearisation() const
+    {
+      return forcing_term.next_attempt_differs() && system->may_change_linearisation();
+    }
+    bool
+    drops_springs() const
+    {
+      return !guessed && !changes_linearisation() && springs.act();
+    }
 
     /** Magnitude of the coordinates, for their round-off. */
     double extent = 0.;

@@ -6,6 +6,7 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/contact/contact.h>
+#include <touchstone/drive/holding_springs.h>
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
@@ -55,6 +56,8 @@ namespace Touchstone
       double tolerance;
       /** Frozen iterations of this step have gained too little (ForcingTerm::slow()). */
       bool slow;
+      /** Hold bodies back, or are not attached. */
+      HoldingSprings &springs;
     };
 
     /** The bodies' stiffness must have been assembled. */
@@ -211,6 +214,9 @@ namespace Touchstone
     /** See check_bodies_without_support(). @param held What supports hold. */
     void
     check_parts(const std::vector<Condition> &held);
+    /** Let the springs act on what @p holding and friction resist a little. */
+    void
+    hold_loosely_held(const State &state, std::vector<Condition> holding);
     /** Stabilise bodies that nothing but contact holds. */
     void
     check_supports(const State &state);

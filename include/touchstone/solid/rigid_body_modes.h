@@ -50,9 +50,13 @@ namespace Touchstone
      * The stiffness lets all rigid motions of all bodies go free, so the null
      * space of the constrained system is that of the Gram matrix R^T B^T B R of
      * the conditions B on the rigid motions R, a matrix of 6 rows per body.
+     * @param resisted Part of the resistance to the best-resisted motion that counts as none.
      */
     FreeMotion
-    free_motion(const std::vector<Condition> &conditions) const;
+    free_motion(const std::vector<Condition> &conditions, double resisted = unresisted) const;
+
+    /** @brief Part of the best-resisted motion's resistance that does not count as any. */
+    static constexpr double unresisted = 1e-8;
 
     /**
      * @brief Diagonal terms that keep free motions finite: a fraction of the
