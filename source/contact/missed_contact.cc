@@ -61,6 +61,7 @@ namespace Touchstone
     , pair(pair)
     , forces(forces)
     , part_adjusted(adjusted_part(contact, pair, which))
+    , by_reference(which == Overlaps::as_paired)
   {
     for (std::size_t k = 0; k < pair.rows().size(); ++k)
       adjusted = std::max(adjusted, -pair.overlap(k));
@@ -97,12 +98,15 @@ namespace Touchstone
 
 
   Face
-  MissedContact::present(const Face &face) const
+  MissedContact::placed(const Face &face) const
   {
-    Face result = face;
-    for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      for (unsigned int d = 0; d < dim; ++d)
-        result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
+    Face result = MeasuredFace::displaced(face, contact.ghosted_displacement());
+    if (by_reference)
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          result.committed[m]    = -result.displacement[m];
+          result.displacement[m] = Tensor<1, dim>();
+        }
     return result;
   }
 
@@ -124,7 +128,7 @@ namespace Touchstone
     std::vector<Face> slaves;
     for (const Face &face : pair.slave().owned_faces())
       if (carries_nothing(face) == idle)
-        slaves.push_back(present(face));
+        slaves.push_back(placed(face));
     return deepest_first(pair.master() ? within_faces(slaves, master_faces(slaves))
                                        : obstacle_within(slaves));
   }

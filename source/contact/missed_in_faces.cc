@@ -30,6 +30,33 @@ namespace Touchstone
   {
     using Box = BoundingBox<dim>;
     using Xi  = MeasuredFace::Xi;
+
+    /** How far a point of a face has moved in the step. */
+    Tensor<1, dim>
+    moved(const Face &face, const Xi &xi)
+    {
+      const FaceShapes shapes(face.degree, xi);
+      Tensor<1, dim>   result;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        result += shapes.value[m] * (face.displacement[m] - face.committed[m]);
+      return result;
+    }
+
+    /** Whether a point of one face is on the other side of the same body for another face. */
+    bool
+    through_body(const MeasuredFace &of,
+                 const Xi           &xi,
+                 const MeasuredFace &in,
+                 const Xi           &foot,
+                 const double        depth)
+    {
+      const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
+      return SelfContact::through_body(
+        evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x,
+        there.x,
+        there.normal(),
+        depth);
+    }
   } // namespace
 
 
@@ -47,13 +74,13 @@ namespace Touchstone
       if (!pair.parameters().of_one_body() || carries_nothing(face))
         {
           masters.push_back(&face);
-          boxes.push_back(MeasuredFace::box_around(present(face), 0.));
+          boxes.push_back(MeasuredFace::box_around(placed(face), 0.));
         }
     std::map<unsigned int, std::vector<Face>> messages;
     const auto ranks = near_ranks(around_slaves, boxes, communicator);
     for (std::size_t f = 0; f < masters.size(); ++f)
       for (const unsigned int rank : ranks[f])
-        messages[rank].push_back(present(*masters[f]));
+        messages[rank].push_back(placed(*masters[f]));
     // Faces are large: no more copies than necessary.
     auto received = exchange_records(messages, communicator);
     messages.clear();
@@ -84,20 +111,23 @@ namespace Touchstone
         if (!in.meets(point.normal) || in.beside(point.x, size))
           continue;
         Xi         foot;
-        const auto depth = in.depth(point.x, least, foot);
-        if (!depth || *depth > size)
+        const auto behind = in.depth(point.x, by_reference ? -size : least, foot);
+        if (!behind || *behind > size)
           continue;
-        if (pair.parameters().of_one_body())
+        const FacePoint at_foot = evaluate(in.face, in.exact, foot);
+        // Since the reference state, in which the two have been paired.
+        Tensor<1, dim> motion;
+        double         depth = *behind;
+        if (by_reference)
           {
-            const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
-            if (SelfContact::through_body(
-                  evaluate(MeasuredFace::in_reference(of.face), of.exact, point.xi).x,
-                  there.x,
-                  there.normal(),
-                  *depth))
+            motion = moved(of.face, point.xi);
+            depth += (moved(in.face, foot) - motion) * at_foot.normal();
+            if (depth < least || depth > size)
               continue;
           }
-        double counts = *depth;
+        if (pair.parameters().of_one_body() && through_body(of, point.xi, in, foot, depth))
+          continue;
+        double counts = depth;
         if (part_adjusted > 0.)
           {
             const Face before = MeasuredFace::in_reference(of.face),
@@ -121,17 +151,21 @@ namespace Touchstone
         // Of samples that are equally deep, as along a ridge, the first: not what round-off
         // chooses.
         constexpr double deeper = 1. + 1e-6;
-        if (counts > std::max(least, deeper * worst.place.depth))
-          worst = {{counts, point.x, size, area},
-                   in.face.body,
-                   point.x + in.to_straight_edges(foot),
-                   evaluate(in.face, in.exact, foot).normal(),
-                   true,
-                   worst.adjusted,
-                   MaterialPoint(slave,
-                                 pair.slave().trace(slave),
-                                 &of.face == &slave ? point.xi : foot),
-                   {}};
+        if (counts <= std::max(least, deeper * worst.place.depth))
+          continue;
+        worst          = {{counts, point.x + motion, size, area},
+                          in.face.body,
+                          point.x + in.to_straight_edges(foot),
+                          at_foot.normal(),
+                          // What has been paired at a distance is not the other side of a body.
+                          !by_reference || *behind > Tolerances::touching * size,
+                          worst.adjusted,
+                          MaterialPoint(slave,
+                               pair.slave().trace(slave),
+                               &of.face == &slave ? point.xi : foot),
+                          {}};
+        worst.found_at = point.x;
+        worst.behind   = by_reference ? *behind : counts;
       }
   }
 
@@ -202,7 +236,8 @@ namespace Touchstone
               continue;
             const AnalyticSurface *const exact = pair.master()->exact_surface(other);
             // The normal case: most faces only face each other.
-            if (exact == nullptr && slave.clear_of(other, Tolerances::touching * slave.size()))
+            if (!by_reference && exact == nullptr &&
+                slave.clear_of(other, Tolerances::touching * slave.size()))
               continue;
             if (sampled.size() >= most_sampled)
               sampled.clear();
@@ -259,6 +294,15 @@ namespace Touchstone
 
 
 
+  Vector
+  MissedContact::searched_displacement() const
+  {
+    return by_reference ? contact.with_ghosts(contact.solid_model().zero_vector())
+                        : contact.ghosted_displacement();
+  }
+
+
+
   void
   MissedContact::remove_entered_elsewhere(const std::vector<Overlap> &found,
                                           const unsigned int          body,
@@ -270,15 +314,15 @@ namespace Touchstone
     std::vector<std::size_t>     numbers;
     std::vector<PointBehindFace> points;
     for (std::size_t k = 0; k < found.size(); ++k)
-      if (inside[k] && found[k].body == body)
+      if (inside[k] && found[k].body == body && found[k].in_doubt)
         {
           numbers.push_back(k);
-          points.push_back({found[k].place.x, found[k].normal, found[k].place.depth});
+          points.push_back({found[k].found_at, found[k].normal, found[k].behind});
         }
     const std::vector<bool> through = have_come_through(
       points,
       body == pair.slave_body() ? pair.slave() : *pair.master(),
-      contact.ghosted_displacement(),
+      searched_displacement(),
       [&](const Face &face) { return body == pair.slave_body() && !carries_nothing(face); },
       contact.communicator());
     for (std::size_t k = 0; k < numbers.size(); ++k)
@@ -303,7 +347,7 @@ namespace Touchstone
         for (const std::size_t k : numbers)
           points.push_back(found[k].inside);
         const std::vector<bool> inside =
-          lie_within(points, contact.solid_model(), body, contact.ghosted_displacement());
+          lie_within(points, contact.solid_model(), body, searched_displacement());
         for (std::size_t k = 0; k < numbers.size(); ++k)
           result[numbers[k]] = inside[k];
       }

@@ -70,13 +70,19 @@ namespace Touchstone
                const std::map<std::string, LeftPenetration> &springs)
     {
       Narrowness result;
-      // Points inside faces have a warning of their own in the step in which they carry. With small
-      // sliding the surfaces may be anywhere.
-      if (pair.tied() || pair.small_sliding() || pair.parameters().of_one_body() ||
+      // Points inside faces have a warning of their own in the step in which they carry. An
+      // obstacle is not paired in the reference state.
+      if (pair.tied() || (pair.small_sliding() && !pair.master()) ||
           (pair.takes_points() && !pair.points().empty()))
         return result;
       const Vector forces = normal_forces(contact, pair);
-      const auto   places = MissedContact(contact, pair, forces).beside_nodes();
+      // With small sliding the surfaces may be anywhere: what rows have paired is looked at.
+      const auto places = MissedContact(contact,
+                                        pair,
+                                        forces,
+                                        pair.small_sliding() ? MissedContact::Overlaps::as_paired
+                                                             : MissedContact::Overlaps::that_count)
+                            .beside_nodes();
       if (places.empty())
         return result;
       const auto [modulus, force] = modulus_and_force(contact, pair);

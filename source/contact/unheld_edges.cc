@@ -26,6 +26,8 @@ namespace Touchstone
     struct EdgePoint
     {
       Point<dim> now, reference;
+      /** First degree of freedom of the nearest node. */
+      Index dof;
       /** Of the edge; length. */
       double length;
       /** The contact surface ends in the edge. */
@@ -72,6 +74,7 @@ namespace Touchstone
           for (const double at : {0.21, 0.5, 0.79})
             result.push_back({now[0] + at * (now[1] - now[0]),
                               reference[0] + at * (reference[1] - reference[0]),
+                              dim * edge.nodes[at < 0.5 ? 0 : 1],
                               now[0].distance(now[1]),
                               at_end});
         }
@@ -104,8 +107,10 @@ namespace Touchstone
         : contact(contact)
         , bodies{pair.slave_body(), pair.master_body()}
       {
-        points[pair.slave_body()]  = points_on_edges(contact, pair.slave());
-        points[pair.master_body()] = points_on_edges(contact, *pair.master());
+        points[pair.slave_body()]          = points_on_edges(contact, pair.slave());
+        const std::vector<EdgePoint> added = points_on_edges(contact, *pair.master());
+        std::vector<EdgePoint>      &list  = points[pair.master_body()];
+        list.insert(list.end(), added.begin(), added.end());
         arcs = height_of_arcs(contact, pair.slave()) + height_of_arcs(contact, *pair.master());
       }
 
@@ -124,7 +129,10 @@ namespace Touchstone
         std::vector<PointOfBody> list;
         for (const auto &[body, on_edges] : points)
           for (const EdgePoint &point : on_edges)
-            list.push_back({body, invalid_index, start ? point.reference : point.now});
+            // A body that meets itself is not beside an edge of its own where its cells have it.
+            list.push_back({body,
+                            of_one_body() ? point.dof : invalid_index,
+                            start ? point.reference : point.now});
         std::vector<BodyOverlap> result =
           points_in_bodies(contact,
                            start ? contact.with_ghosts(contact.solid_model().zero_vector())
@@ -134,8 +142,8 @@ namespace Touchstone
                            least);
         result.erase(std::remove_if(result.begin(),
                                     result.end(),
-                                    [](const BodyOverlap &overlap) {
-                                      return overlap.body == overlap.other;
+                                    [this](const BodyOverlap &overlap) {
+                                      return overlap.body == overlap.other && !of_one_body();
                                     }),
                      result.end());
         return result;
@@ -165,6 +173,13 @@ namespace Touchstone
         return Utilities::MPI::max(static_cast<int>(result), contact.communicator()) == 1;
       }
 
+      /** Whether both surfaces are those of the same body. */
+      bool
+      of_one_body() const
+      {
+        return bodies.size() == 1;
+      }
+
     private:
       const Contact                                 &contact;
       const std::set<unsigned int>                   bodies;
@@ -175,7 +190,7 @@ namespace Touchstone
 
 
     std::string
-    remedy(const bool slave_ends, const bool master_ends)
+    remedy(const bool slave_ends, const bool master_ends, const bool of_one_body)
     {
       std::string result = ", where rows of slave nodes do not hold it. ";
       if (slave_ends || master_ends)
@@ -185,7 +200,9 @@ namespace Touchstone
                   (master_ends ? "Master boundaries'" : "") + ", else refine ";
       else
         result += "Refine ";
-      return result + "the slave surface, exchange slave and master, or round the edges";
+      return result + "the slave surface" +
+             (of_one_body ? " or round the edges"
+                          : ", exchange slave and master, or round the edges");
     }
 
 
@@ -223,8 +240,8 @@ namespace Touchstone
       {
         const ContactPair &pair = contact.pair(p);
         const std::string &name = pair.parameters().name;
-        if (pair.tied() || !pair.master() || pair.small_sliding() ||
-            pair.parameters().of_one_body())
+        // With small sliding edges may be anywhere.
+        if (pair.tied() || !pair.master() || pair.small_sliding())
           continue;
         const EdgesInBodies edges(contact, pair);
         const auto          left = springs.find(name);
@@ -233,7 +250,8 @@ namespace Touchstone
           result.push_back("contact pair '" + name + "': an edge of " +
                            worst.place(contact.solid_model()) +
                            remedy(edges.ends_at(pair.slave_body(), worst),
-                                  edges.ends_at(pair.master_body(), worst)));
+                                  edges.ends_at(pair.master_body(), worst),
+                                  edges.of_one_body()));
       }
     return result;
   }

@@ -44,7 +44,10 @@ namespace Touchstone
       /** Those that are to be none: without what is adjusted of initial ones. */
       that_count,
       /** Those of the bodies as they are placed. */
-      as_placed
+      as_placed,
+      /** Those that are to be none between the points that face each other in the reference state.
+       * Rows of small sliding keep these apart, however far the surfaces slide. */
+      as_paired
     };
 
     /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
@@ -92,6 +95,8 @@ namespace Touchstone
     const Vector      &forces;
     /** The part of an overlap in the reference state that does not count now. */
     const double part_adjusted;
+    /** Overlaps::as_paired. */
+    const bool by_reference;
     /** The largest initial overlap of a row that does not count now; length. */
     double adjusted = 0.;
 
@@ -114,6 +119,9 @@ namespace Touchstone
       MaterialPoint point{};
       /** Where that is. */
       dealii::Point<dim> at_point{};
+      /** Where it has been looked for, and how deep it is behind the face there. */
+      dealii::Point<dim> found_at{};
+      double             behind = 0.;
     };
     /** A point of a slave face that lies within the other surface. */
     struct Sample
@@ -124,9 +132,14 @@ namespace Touchstone
 
     bool
     carries_nothing(const Face &face) const;
-    /** A face in its present position, also with small sliding, whose surfaces are not moved. */
+    /** A face where overlaps are looked for: in its present position, also with small sliding,
+     * whose surfaces are not moved. Overlaps::as_paired: in the reference state, and the step, from
+     * Face::committed on, is what has happened since. */
     Face
-    present(const Face &face) const;
+    placed(const Face &face) const;
+    /** Of the bodies where overlaps are looked for, with ghosts. Collective. */
+    Vector
+    searched_displacement() const;
     /** In the slave faces of any rank that are idle, or in the others; the deepest first.
      * Collective. */
     std::vector<Overlap>
