@@ -7,8 +7,8 @@
 #include <limits>
 
 // Bodies that stand on one or two nodes can turn about the line through them, and what has no
-// friction can slide: all these states are balanced, and round-off would choose one of them. The
-// least motion of a static step is taken (doc/theory.md 9).
+// friction can slide: all these states are balanced, or nearly so, and round-off or facets would
+// choose one of them. The least motion of a static step is taken (doc/theory.md 9).
 namespace Touchstone
 {
   using namespace dealii;
