@@ -272,15 +272,29 @@ namespace Touchstone
   {
     if (!state.springs.attached())
       return;
-    // Facets that strain has tilted against each other resist a motion along them a little.
-    constexpr double little  = 1e-3;
+    // Where there is friction it decides, even if it leaves a motion free.
+    std::vector<int> with_friction(parts.solid.n_bodies());
     bool             pressed = false;
     for (const ContactRow &row : parts.contact.rows())
-      {
-        pressed               = pressed || parts.contact.state(row).active();
-        const auto directions = along_surface(row, parts.contact.state(row));
-        holding.insert(holding.end(), directions.begin(), directions.end());
-      }
+      if (parts.contact.state(row).active())
+        {
+          pressed = true;
+          if (row.friction || row.tied)
+            {
+              with_friction[row.body] = 1;
+              if (!row.on_obstacle())
+                with_friction[row.master_body] = 1;
+            }
+        }
+    Utilities::MPI::max(with_friction, parts.solid.communicator, with_friction);
+    for (unsigned int body = 0; body < with_friction.size(); ++body)
+      if (with_friction[body] == 1)
+        {
+          const std::vector<Condition> fixed = modes.all_motions(body);
+          holding.insert(holding.end(), fixed.begin(), fixed.end());
+        }
+    // Facets that strain has tilted against each other resist a motion along them a little.
+    constexpr double little = 1e-3;
     state.springs.act_on(everywhere(!pressed) ? FreeMotion() : modes.free_motion(holding, little));
     if (state.springs.act())
       system->diagonal_shift = state.springs.stiffness();

@@ -175,6 +175,25 @@ namespace Touchstone
 
 
 
+  std::vector<Condition>
+  RigidBodyModes::all_motions(const unsigned int body) const
+  {
+    std::vector<Condition> result;
+    for (unsigned int corner = 0; corner < dim; ++corner)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Condition condition;
+          condition.body         = body;
+          condition.position     = frames[body].centre;
+          condition.direction[d] = 1.;
+          condition.position[corner] += frames[body].size;
+          result.push_back(condition);
+        }
+    return result;
+  }
+
+
+
   /** How much of each elementary motion lies in the free space, in words. */
   void
   RigidBodyModes::describe(FreeMotion &motion) const

@@ -58,6 +58,10 @@ namespace Touchstone
     /** @brief Part of the best-resisted motion's resistance that does not count as any. */
     static constexpr double unresisted = 1e-8;
 
+    /** @brief Conditions that leave a body no rigid motion. */
+    std::vector<Condition>
+    all_motions(unsigned int body) const;
+
     /**
      * @brief Diagonal terms that keep free motions finite: a fraction of the
      * diagonal of the stiffness, times the square of each dof's share of the motion.
