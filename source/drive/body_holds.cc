@@ -3,6 +3,7 @@
 #include <touchstone/contact/pressing_rows.h>
 #include <touchstone/drive/body_holds.h>
 #include <touchstone/drive/driven_bodies.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -101,13 +102,11 @@ namespace Touchstone
 
 
 
-    constexpr unsigned int n_motions = 2 * dim;
-
     /** What a hold resists of the motions of its body: three translations and three rotations. */
-    std::array<double, n_motions>
+    std::array<double, n_rigid_modes>
     resisted(const Hold &hold, const Point<dim> &centre, const double size)
     {
-      std::array<double, n_motions> result;
+      std::array<double, n_rigid_modes> result;
       const Tensor<1, dim> moment = cross_product_3d(hold.position - centre, hold.direction) / size;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -175,31 +174,31 @@ namespace Touchstone
     };
 
     // The normal equations of each body: its matrix, then its right-hand side.
-    constexpr unsigned int of_body = n_motions * (n_motions + 1);
+    constexpr unsigned int of_body = n_rigid_modes * (n_rigid_modes + 1);
     std::vector<double>    equations(of_body * n_bodies);
     for (const Hold &hold : holds)
       {
         const auto    row   = resisted(hold, result[hold.body].centre, size(hold.body));
         double *const first = &equations[of_body * hold.body];
-        for (unsigned int i = 0; i < n_motions; ++i)
+        for (unsigned int i = 0; i < n_rigid_modes; ++i)
           {
-            for (unsigned int j = 0; j < n_motions; ++j)
-              first[n_motions * i + j] += row[i] * row[j];
-            first[n_motions * n_motions + i] += row[i] * hold.motion;
+            for (unsigned int j = 0; j < n_rigid_modes; ++j)
+              first[n_rigid_modes * i + j] += row[i] * row[j];
+            first[n_rigid_modes * n_rigid_modes + i] += row[i] * hold.motion;
           }
       }
     Utilities::MPI::sum(equations, communicator, equations);
     for (unsigned int b = 0; b < n_bodies; ++b)
       if (sums[n_sums * b] > 0.)
         {
-          LAPACKFullMatrix<double> matrix(n_motions, n_motions);
-          dealii::Vector<double>   rhs(n_motions);
+          LAPACKFullMatrix<double> matrix(n_rigid_modes, n_rigid_modes);
+          dealii::Vector<double>   rhs(n_rigid_modes);
           const double *const      first = &equations[of_body * b];
-          for (unsigned int i = 0; i < n_motions; ++i)
+          for (unsigned int i = 0; i < n_rigid_modes; ++i)
             {
-              for (unsigned int j = 0; j < n_motions; ++j)
-                matrix(i, j) = first[n_motions * i + j];
-              rhs(i) = first[n_motions * n_motions + i];
+              for (unsigned int j = 0; j < n_rigid_modes; ++j)
+                matrix(i, j) = first[n_rigid_modes * i + j];
+              rhs(i) = first[n_rigid_modes * n_rigid_modes + i];
             }
           const dealii::Vector<double> motion = least_squares(matrix, rhs);
           for (unsigned int d = 0; d < dim; ++d)

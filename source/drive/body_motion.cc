@@ -3,8 +3,6 @@
 #include <touchstone/drive/body_motion.h>
 #include <touchstone/solid/bodies.h>
 
-#include <deal.II/numerics/vector_tools_interpolate.h>
-
 namespace Touchstone
 {
   using namespace dealii;
@@ -12,11 +10,8 @@ namespace Touchstone
   void
   move_bodies(const Solid &solid, const Motions &motions, const Vector &start, Vector &u)
   {
-    // Present positions, as a vector over the dofs.
-    Vector position(u);
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
-    position += start;
-    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+    const Vector                    position = present_positions(solid, start);
+    const std::vector<unsigned int> body     = bodies_of_unknowns(solid);
     for (std::size_t i = 0; i < body.size(); i += dim)
       if (const std::optional<BodyMotion> &motion = motions[body[i]])
         {

@@ -6,7 +6,6 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
 #include <array>
@@ -167,10 +166,7 @@ namespace Touchstone
   Vector
   Dynamics::moved_rigidly(const unsigned int k, const std::vector<RigidFrame> &frames) const
   {
-    Vector result(v);
-    // Reference positions of the nodes, as a vector over the dofs.
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
-    result += committed_u;
+    Vector result = present_positions(solid, committed_u);
     for (std::size_t i = 0; i < result.locally_owned_size(); i += dim)
       {
         const RigidFrame    &frame = frames[body[i]];
@@ -187,10 +183,9 @@ namespace Touchstone
   std::vector<BodyMomentum>
   Dynamics::momenta_of(const Vector &velocity) const
   {
-    Vector momentum(v), position(v);
+    const Vector position = present_positions(solid, committed_u);
+    Vector       momentum(v);
     mass.multiply(velocity, momentum);
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
-    position += committed_u;
     std::vector<BodyMomentum> result(solid.bodies.size());
     for (std::size_t i = 0; i < body.size(); i += dim)
       {

@@ -26,14 +26,13 @@ namespace Touchstone
 
 
 
-  bool
+  void
   HoldingSprings::soften()
   {
     constexpr double factor = 0.1, last = 1e-10;
     fraction *= factor;
     if (fraction < last)
       detach();
-    return attached();
   }
 
 

@@ -5,7 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/numerics/vector_tools_interpolate.h>
 
 // The part of a motion that lies in given rigid motions of the bodies (doc/theory.md 9).
 namespace Touchstone
@@ -14,14 +13,12 @@ namespace Touchstone
 
   namespace
   {
-    constexpr unsigned int n_motions = 2 * dim;
-
     /** Of a body: integrals of the products of its rigid modes at its present position, and of the
      * modes times its displacement since the start of the step; over the undeformed volume. */
     struct Moments
     {
-      FullMatrix<double>     of_modes = FullMatrix<double>(n_motions, n_motions);
-      dealii::Vector<double> of_step  = dealii::Vector<double>(n_motions);
+      FullMatrix<double>     of_modes = FullMatrix<double>(n_rigid_modes, n_rigid_modes);
+      dealii::Vector<double> of_step  = dealii::Vector<double>(n_rigid_modes);
     };
 
     /** Integrals over a cell are means over its nodes. Collective. */
@@ -31,7 +28,7 @@ namespace Touchstone
                       const Vector                  &start,
                       const Vector                  &u)
     {
-      constexpr unsigned int of_body = n_motions * (n_motions + 1);
+      constexpr unsigned int of_body = n_rigid_modes * (n_rigid_modes + 1);
       std::vector<double>    sums(of_body * frames.size());
       const auto             now = solid.ghosted(u), before = solid.ghosted(start);
       std::vector<Index>     dofs(solid.fe.n_dofs_per_cell());
@@ -53,25 +50,25 @@ namespace Touchstone
                       position[d] += now(dofs[i] + d);
                       moved[d] = now(dofs[i] + d) - before(dofs[i] + d);
                     }
-                  for (unsigned int j = 0; j < n_motions; ++j)
+                  for (unsigned int j = 0; j < n_rigid_modes; ++j)
                     {
                       const Tensor<1, dim> mode =
                         rigid_mode(j, (position - frame.centre) / frame.size);
-                      for (unsigned int k = 0; k < n_motions; ++k)
-                        sum[n_motions * j + k] +=
+                      for (unsigned int k = 0; k < n_rigid_modes; ++k)
+                        sum[n_rigid_modes * j + k] +=
                           weight * (mode * rigid_mode(k, (position - frame.centre) / frame.size));
-                      sum[n_motions * n_motions + j] += weight * (mode * moved);
+                      sum[n_rigid_modes * n_rigid_modes + j] += weight * (mode * moved);
                     }
                 }
           }
       Utilities::MPI::sum(sums, solid.communicator, sums);
       std::vector<Moments> result(frames.size());
       for (std::size_t b = 0; b < frames.size(); ++b)
-        for (unsigned int j = 0; j < n_motions; ++j)
+        for (unsigned int j = 0; j < n_rigid_modes; ++j)
           {
-            for (unsigned int k = 0; k < n_motions; ++k)
-              result[b].of_modes(j, k) = sums[of_body * b + n_motions * j + k];
-            result[b].of_step(j) = sums[of_body * b + n_motions * n_motions + j];
+            for (unsigned int k = 0; k < n_rigid_modes; ++k)
+              result[b].of_modes(j, k) = sums[of_body * b + n_rigid_modes * j + k];
+            result[b].of_step(j) = sums[of_body * b + n_rigid_modes * n_rigid_modes + j];
           }
       return result;
     }
@@ -87,14 +84,14 @@ namespace Touchstone
     dealii::Vector<double> rhs(modes.n_modes), result(modes.n_modes);
     for (unsigned int v = 0; v < modes.n_modes; ++v)
       for (std::size_t b = 0; b < moments.size(); ++b)
-        for (unsigned int j = 0; j < n_motions; ++j)
+        for (unsigned int j = 0; j < n_rigid_modes; ++j)
           {
-            const double part = modes.basis(n_motions * b + j, v);
+            const double part = modes.basis(n_rigid_modes * b + j, v);
             rhs(v) += part * moments[b].of_step(j);
             for (unsigned int w = 0; w < modes.n_modes; ++w)
-              for (unsigned int k = 0; k < n_motions; ++k)
+              for (unsigned int k = 0; k < n_rigid_modes; ++k)
                 matrix(v, w) +=
-                  part * moments[b].of_modes(j, k) * modes.basis(n_motions * b + k, w);
+                  part * moments[b].of_modes(j, k) * modes.basis(n_rigid_modes * b + k, w);
           }
     matrix.gauss_jordan();
     matrix.vmult(result, rhs);
@@ -115,8 +112,9 @@ namespace Touchstone
         for (unsigned int v = 0; v < modes.n_modes; ++v)
           for (unsigned int d = 0; d < dim; ++d)
             {
-              motion.shift[d] += parts(v) * modes.basis(n_motions * b + d, v);
-              motion.turn[d] += parts(v) * modes.basis(n_motions * b + dim + d, v) / frames[b].size;
+              motion.shift[d] += parts(v) * modes.basis(n_rigid_modes * b + d, v);
+              motion.turn[d] +=
+                parts(v) * modes.basis(n_rigid_modes * b + dim + d, v) / frames[b].size;
             }
         // The axis of what is a translation but for round-off is far away.
         constexpr double round_off = 1e-10;
@@ -139,9 +137,7 @@ namespace Touchstone
                         const dealii::Vector<double> &parts,
                         const Vector                 &u)
   {
-    Vector result(u);
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
-    result += u;
+    Vector                          result = present_positions(solid, u);
     const std::vector<RigidFrame>   frames = rigid_frames(solid);
     const std::vector<unsigned int> body   = bodies_of_unknowns(solid);
     for (std::size_t i = 0; i < body.size(); i += dim)
@@ -151,8 +147,9 @@ namespace Touchstone
         const Tensor<1, dim> distance = (Point<dim>(x[0], x[1], x[2]) - frame.centre) / frame.size;
         Tensor<1, dim>       moved;
         for (unsigned int v = 0; v < modes.n_modes; ++v)
-          for (unsigned int k = 0; k < n_motions; ++k)
-            moved += parts(v) * modes.basis(n_motions * body[i] + k, v) * rigid_mode(k, distance);
+          for (unsigned int k = 0; k < n_rigid_modes; ++k)
+            moved +=
+              parts(v) * modes.basis(n_rigid_modes * body[i] + k, v) * rigid_mode(k, distance);
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = moved[d];
       }

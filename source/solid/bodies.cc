@@ -3,6 +3,7 @@
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
 #include <limits>
@@ -67,6 +68,17 @@ namespace Touchstone
   {
     const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
     return k < dim ? axis : cross_product_3d(axis, x);
+  }
+
+
+
+  Vector
+  present_positions(const Solid &solid, const Vector &u)
+  {
+    Vector result(u);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
+    result += u;
+    return result;
   }
 
 

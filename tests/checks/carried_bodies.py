@@ -3,7 +3,6 @@
 between plates rolls with them."""
 # ctest: label = quick
 
-import csv
 
 from touchstone_test import below, check, finish, folder, relative, run
 
@@ -36,8 +35,7 @@ end
 
 def displacements(result, component):
     """Displacement of the middle by time."""
-    rows = csv.DictReader((result.folder / "probe_middle.csv").read_text(encoding="utf-8").splitlines())
-    return {float(row["time[time]"]): float(row[f"displacement_{component}[length]"]) for row in rows}
+    return {row["time"]: row[f"displacement_{component}"] for row in result.probe("middle")}
 
 
 JAWS = block("set Obstacles = left, right\nset Contact pairs = at left, at right", "-20 * min(max(t - 1, 0), 1)") + "".join(f"""subsection Obstacle {side}

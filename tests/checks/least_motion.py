@@ -3,7 +3,6 @@
 that stand on one node on either side, and bodies without friction, are at the same place whatever the solver."""
 # ctest: label = quick
 
-import csv
 
 from touchstone_test import AUGMENTED, CG, GMRES, MULTIPLIERS, MUMPS, below, finish, folder, run
 
@@ -102,8 +101,7 @@ def forces(result):
 
 
 def motions(result):
-    rows = csv.DictReader((result.folder / "probe_point.csv").read_text(encoding="utf-8").splitlines())
-    return [float(row[f"displacement_{axis}[length]"]) for row in rows for axis in "xyz"]
+    return [row[f"displacement_{axis}"] for row in result.probe("point") for axis in "xyz"]
 
 
 def farthest(one, other):

@@ -3,7 +3,6 @@
 is the impulse of the moment, in implicit and explicit dynamics; a force at a point on an arm keeps
 its moment; a cantilever is rolled up to the circle of the exact solution."""
 
-import csv
 import math
 
 from touchstone_test import (STEPS, below, check, checks, finish, folder, relative, run)
@@ -57,9 +56,8 @@ def bent(moment, length=10., modulus=1200.):
 
 def tip(result):
     """Where the end of the beam is."""
-    with open(result.folder / "probe_tip.csv", encoding="utf-8") as file:
-        row = list(csv.DictReader(file))[-1]
-    return 10 + float(row["displacement_x[length]"]), float(row["displacement_z[length]"])
+    row = result.probe("tip")[-1]
+    return 10 + row["displacement_x"], row["displacement_z"]
 
 
 def apart(first, second):

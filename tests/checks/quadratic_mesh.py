@@ -15,9 +15,7 @@ DEGREE, FACTOR = "Discretisation/Degree", "Discretisation/Refinement factor"
 
 def radial(result):
     """Length of the displacement of the probe at the end."""
-    lines = (result.folder / "probe_bore.csv").read_text(encoding="utf-8").splitlines()
-    names = [title.partition("[")[0] for title in lines[0].split(",")]
-    values = dict(zip(names, map(float, lines[-1].split(","))))
+    values = result.probe("bore")[-1]
     return math.hypot(*(values[f"displacement_{d}"] for d in "xyz"))
 
 

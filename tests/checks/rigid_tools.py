@@ -48,9 +48,7 @@ same(run("plate_turned", tests / "stl_plate.prm",
 
 def end(result):
     """The last values of the probe."""
-    lines = (result.folder / "probe_corner.csv").read_text(encoding="utf-8").splitlines()
-    names = [title.partition("[")[0] for title in lines[0].split(",")]
-    return dict(zip(names, map(float, lines[-1].split(","))))
+    return result.probe("corner")[-1]
 
 
 PROBE = {"Probes": "corner", "Probe corner/Body": "block", "Probe corner/Point": "1,0,0"}

@@ -188,6 +188,12 @@ class Run:
         """Rows of the table 'statistics', by the titles of its columns."""
         return statistics(self.folder / "statistics")
 
+    def probe(self, name):
+        """Rows of a probe's history, by the names of its columns without units."""
+        lines = (self.folder / f"probe_{name}.csv").read_text(encoding="utf-8").splitlines()
+        names = [title.partition("[")[0] for title in lines[0].split(",")]
+        return [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
+
     def column(self, title):
         """A column of the statistics."""
         return [row.get(title, math.nan) for row in self.rows()] or [math.nan]

@@ -25,8 +25,8 @@ namespace Touchstone
     void
     act_on(const FreeMotion &motion);
 
-    /** @brief Make them softer. @return whether any are left. */
-    bool
+    /** @brief Make them softer; in the end they are taken away. */
+    void
     soften();
 
     /** @brief Take them away. */

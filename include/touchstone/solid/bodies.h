@@ -31,10 +31,18 @@ namespace Touchstone
   std::vector<RigidFrame>
   rigid_frames(const Solid &solid);
 
+  /** @brief Number of rigid motions of a body: three translations, three rotations. */
+  constexpr unsigned int n_rigid_modes = 2 * dim;
+
   /** @brief Displacement of rigid mode @p k (translations along x, y, z, rotations about them) at
    * distance @p x from the centre, in sizes of the body. */
   dealii::Tensor<1, dim>
   rigid_mode(unsigned int k, const dealii::Tensor<1, dim> &x);
+
+  /** @brief Where the displacement @p u takes the nodes, as a vector over the dofs; owned dofs,
+   * length. */
+  Vector
+  present_positions(const Solid &solid, const Vector &u);
 
   /** @brief Index of the body of each locally owned dof, in the order of the dofs. */
   std::vector<unsigned int>
