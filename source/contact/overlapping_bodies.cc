@@ -182,14 +182,53 @@ namespace Touchstone
 
 
 
+    /** Overlaps that the scene asks for. */
+    class Intended
+    {
+      using Bodies = std::pair<unsigned int, unsigned int>;
+
+    public:
+      /** Collective. */
+      Intended(const Contact &contact, const Vector &u)
+      {
+        for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+          if (const ContactPair &pair = contact.pair(p); pair.master() != nullptr)
+            {
+              const Bodies bodies = std::minmax(pair.slave_body(), pair.master_body());
+              if (pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+                left_out.insert(bodies);
+              if (pair.cut() != nullptr)
+                cuts.emplace_back(bodies, pair.cut()->taken_out(u));
+            }
+      }
+
+      bool
+      contains(const PointOfBody &point, const unsigned int other) const
+      {
+        const Bodies bodies = std::minmax(point.body, other);
+        return left_out.count(bodies) > 0 ||
+               std::any_of(cuts.begin(), cuts.end(), [&](const auto &cut) {
+                 return cut.first == bodies && cut.second.contains(point.x);
+               });
+      }
+
+    private:
+      /** Overlap at the start that is adjusted or grows with time. */
+      std::set<Bodies> left_out;
+      /** Sides of a bolt that pretension has drawn into each other. */
+      std::vector<std::pair<Bodies, PlaneCut::Layer>> cuts;
+    };
+
+
+
     /** Points within cells of this rank. */
     std::vector<BodyOverlap>
-    own_overlaps(const Contact                                         &contact,
-                 const Vector                                          &u,
-                 const std::set<unsigned int>                          &bodies,
-                 const std::vector<PointOfBody>                        &points,
-                 const std::set<std::pair<unsigned int, unsigned int>> &left_out,
-                 const double                                           least)
+    own_overlaps(const Contact                  &contact,
+                 const Vector                   &u,
+                 const std::set<unsigned int>   &bodies,
+                 const std::vector<PointOfBody> &points,
+                 const Intended                 &intended,
+                 const double                    least)
     {
       std::vector<std::pair<Point<dim>, std::size_t>> places;
       for (std::size_t k = 0; k < points.size(); ++k)
@@ -203,7 +242,7 @@ namespace Touchstone
           {
             const PointOfBody &point = points[entry.second];
             if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||
-                left_out.count(std::minmax(point.body, cell.body)) > 0)
+                intended.contains(point, cell.body))
               continue;
             if (const double depth = depth_in(cell, point.x, least); depth > 0.)
               result.push_back({point.body, cell.body, depth, point.x});
@@ -259,18 +298,12 @@ namespace Touchstone
                    std::vector<PointOfBody>      own,
                    const double                  least)
   {
-    std::set<std::pair<unsigned int, unsigned int>> left_out;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ContactPair &pair = contact.pair(p);
-          pair.master() != nullptr &&
-          pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
-        left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
-
+    const Intended                 intended(contact, u);
     const std::vector<PointOfBody> points = points_around(std::move(own), contact, u, bodies);
 
     // Of each two bodies, in an order that does not depend on the partition.
     std::vector<BodyOverlap> all =
-      gather_all(own_overlaps(contact, u, bodies, points, left_out, least), contact.communicator());
+      gather_all(own_overlaps(contact, u, bodies, points, intended, least), contact.communicator());
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);

@@ -110,4 +110,35 @@ namespace Touchstone
       result -= (result * direction) * direction;
     return -result / result.norm();
   }
+
+
+
+  bool
+  PlaneCut::Layer::contains(const Point<dim> &x) const
+  {
+    constexpr double beside = 0.5;
+    const double     height = (x - place) * normal;
+    return height >= -beside * thickness && height <= (1. + beside) * thickness;
+  }
+
+
+
+  PlaneCut::Layer
+  PlaneCut::taken_out(const Vector &u) const
+  {
+    std::array<ExactSum, dim + 1> sum;
+    for (const SurfaceNode &node : slave.owned_nodes())
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[d].add(node.reference[d] + u(dim * node.node + d));
+        sum[dim].add(1.);
+      }
+    const double n = sum[dim].value(communicator);
+    Layer        result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result.place[d] = sum[d].value(communicator) / n;
+    result.normal    = normal(u);
+    result.thickness = shortening;
+    return result;
+  }
 } // namespace Touchstone

@@ -43,6 +43,11 @@ same(run("locked by length", scene, {"Contact pair cut/Pretension force": "",
 for name, settings in (("multipliers", MULTIPLIERS), ("augmented", AUGMENTED), ("cg", CG)):
     balance(run(name, scene, settings), 1e-6)
 
+# The sides of a cut that is shortened by two fifths of a cell lie in each other: no overlap.
+drawn = run("drawn together", scene, {"Contact pair cut/Pretension force": "",
+                                      "Contact pair cut/Pretension shortening": "0.2*min(t, 1)"})
+check("reaches into" not in drawn.log, "the sides of a cut count as an overlap")
+
 # From a checkpoint of the locked joint.
 run("resumed", scene, {"Checkpoints/Steps between": 3})
 shutil.rmtree("resumed/checkpoint_000002")

@@ -39,7 +39,8 @@ namespace Touchstone
    * through a face in a single step would otherwise go unnoticed: rows know nothing of them. Points
    * count from a quarter of the thickness of a cell on, as coarse surfaces that touch overlap by
    * the height of arcs over their faces, see Tolerances::deep_in_body. Bodies whose overlap at the
-   * start is adjusted or grows with time are left out.
+   * start is adjusted or grows with time are left out, and the layer that pretension takes out of a
+   * bolt.
    *
    * @param u Displacement, with ghosts.
    * @param bodies Those that are looked at.

@@ -54,6 +54,26 @@ namespace Touchstone
       return -shortening * normal(u);
     }
 
+    /** @brief The layer that the shortening has taken out of the bolt. */
+    struct Layer
+    {
+      /** Mean place of the slave side, which is the lower one along the normal. */
+      dealii::Point<dim>     place;
+      dealii::Tensor<1, dim> normal;
+      /** Length; nothing is taken out if it is not positive. */
+      double thickness = 0.;
+
+      /** @brief Whether the point lies in it, or no farther beside it than half its thickness, for
+       * the sides may have bent. */
+      bool
+      contains(const dealii::Point<dim> &x) const;
+    };
+
+    /** @brief Where the sides of the bolt lie in each other, in the displacement @p u with the
+     * ghosts of the surface. Collective. */
+    Layer
+    taken_out(const Vector &u) const;
+
   private:
     const Surface &slave;
     const bool     turns;
