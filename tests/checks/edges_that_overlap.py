@@ -5,7 +5,8 @@ grows with time. Before, all of this ended with exit code 2, but for parallel ed
 were by half too small with exit code 0."""
 # ctest: goldens = edge_across_edge, vertex_in_slave_face
 
-from touchstone_test import AUGMENTED, GMRES, MULTIPLIERS, STEPS, below, finish, golden, run, same, tests
+from touchstone_test import (AUGMENTED, GMRES, MULTIPLIERS, STEPS, below, finish, folder, golden, relative, run,
+                             same, tests)
 from edge_on_edge_scenes import ON_EDGE, block, pressed  # of tests/, which touchstone_test finds
 
 LOWER, UPPER = "Body {}/Geometry/Lower corner", "Body {}/Geometry/Upper corner"
@@ -52,4 +53,75 @@ for overlap in (0.01, 0.06, 0.1):
     two = run(f"{scene.stem}_two_ranks", scene, {STEPS: 1, PAIRING: "averaged"}, ranks=2)
     below(f"{two}, force against one rank",
           max(abs(a - b) for a, b in zip(two.force("edge"), without)) / without[2], 1e-8)
+
+
+# A press fit of 8 and 12 facets, whose vertices at the end of the inner tube lie in faces and on edges of the
+# slave. Vertices that share a face are not taken for each other: the scene turned has the force turned, and
+# none across. Before, one of four vertices that lie on edges kept a row, or none did, as it was turned.
+FIT = """set Bodies        = outer, inner
+set Contact pairs = fit
+subsection Body outer
+  set Fixed = outer
+  subsection Geometry
+    set Type         = tube
+    set Axis         = {axis}
+    set Angle        = 360
+    set End          = 0.82429
+    set Inner radius = 1
+    set Inner slope  = 0.0247
+    set Outer radius = 1.32939
+    set Cells        = 2, 12, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Poisson ratio = 0
+  end
+end
+subsection Body inner
+  set Fixed = inner
+  subsection Geometry
+    set Type         = tube
+    set Axis         = {axis}
+    set Angle        = 360
+    set Start        = 0.24729
+    set End          = 1.07158
+    set Inner radius = 0.4044
+    set Outer radius = 0.99745
+    set Outer slope  = 0.0247
+    set Cells        = 2, 8, 2
+  end
+  subsection Material
+    set Young modulus = 109.274
+    set Poisson ratio = 0.308
+  end
+end
+subsection Contact pair fit
+  set Slave body        = outer
+  set Slave boundaries  = inner
+  set Master body       = inner
+  set Master boundaries = outer
+  set Pairing           = pointwise
+  set Contact geometry  = faceted
+  set Behaviour         = tresca
+  subsection Friction
+    set Shear strength = 2.849
+  end
+end
+"""
+
+
+def fit(axis, ranks=1):
+    """Its force along the axis; what it has across must vanish."""
+    scene = folder / f"fit_{axis}.prm"
+    scene.write_text(FIT.format(axis=axis), encoding="utf-8")
+    result = run(f"fit_{axis}_{ranks}", scene, ranks=ranks)
+    force = result.force("fit")
+    along = force.pop("xyz".index(axis))
+    below(f"{result}, force across", max(map(abs, force)) / abs(along), 1e-8)
+    return along
+
+
+along_x = fit("x")
+for axis, ranks in (("y", 1), ("z", 1), ("y", 2)):
+    below(f"fit along {axis}, {ranks} ranks", relative(fit(axis, ranks), along_x), 1e-8)
 finish()

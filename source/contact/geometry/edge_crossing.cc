@@ -24,6 +24,7 @@ namespace Touchstone
       Point<dim>           a, b, centre;
       std::array<Index, 2> nodes;
       const Face          *face;
+      std::uint64_t        key;
       Tensor<1, dim>       normal, plane;
       bool                 outer, own;
     };
@@ -77,6 +78,7 @@ namespace Touchstone
              middle.x,
              {{face.nodes[i], face.nodes[j]}},
              &face,
+             face.edge_key(e),
              middle.normal(),
              plane_of_symmetry(face, e),
              (face.outer_edges >> e & 1u) != 0,
@@ -137,7 +139,7 @@ namespace Touchstone
                 result.push_back({one.a,
                                   one.b,
                                   one.nodes,
-                                  one.face->key,
+                                  one.key,
                                   {{one.normal, image.normal}},
                                   {{one.face, nullptr}}});
             }
@@ -147,14 +149,14 @@ namespace Touchstone
             result.push_back({one.a,
                               one.b,
                               one.nodes,
-                              one.face->key,
+                              one.key,
                               {{one.normal, outward(one)}},
                               {{one.face, nullptr}}});
           else if (list.size() == 2 && is_sharp(list.back()))
             result.push_back({one.a,
                               one.b,
                               one.nodes,
-                              std::min(one.face->key, list.back().face->key),
+                              std::min(one.key, list.back().key),
                               {{one.normal, list.back().normal}},
                               {{one.face, list.back().face}}});
         }

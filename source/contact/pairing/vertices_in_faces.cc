@@ -170,9 +170,9 @@ namespace Touchstone
         weights.push_back(shapes.value[m]);
         weights_before.push_back(before.value[m]);
       }
-    std::uint64_t key = other->key;
-    for (const auto &entry : around.at(vertex))
-      key = std::min(key, entry.first->key);
+    std::uint64_t key = other->node_key(number);
+    for (const auto &[beside, m] : around.at(vertex))
+      key = std::min(key, beside->node_key(m));
     FoundBetweenNodes result;
     result.held =
       std::any_of(nodes.begin(), nodes.end(), [&](const Index node) { return is_held(node, key); });

@@ -18,7 +18,7 @@ namespace Touchstone
     dealii::Point<dim> a, b;
     /** The nodes there. */
     std::array<Index, 2> nodes;
-    /** The least of the keys of the faces that meet in it. */
+    /** The least of its numbers on the faces that meet in it, see Face::edge_key(). */
     std::uint64_t key;
     /** Unit outward normals on both sides of the edge. Where the surface ends, the second
      * points away from it within its tangent plane: the side of the body beyond the edge is

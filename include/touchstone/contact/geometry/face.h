@@ -28,6 +28,8 @@ namespace Touchstone
     static constexpr unsigned int max_nodes = 9;
     /** From this number on cell_node() is on the opposite face of the cell. */
     static constexpr unsigned int behind = 4;
+    /** At least as many as it has nodes and edges. */
+    static constexpr unsigned int parts = 16;
 
     /** Order of faces that does not depend on the partition. */
     std::uint64_t key    = 0;
@@ -85,6 +87,20 @@ namespace Touchstone
     position(const unsigned int m) const
     {
       return reference[m] + displacement[m];
+    }
+
+    /** @brief Numbers of the node @p m and of the edge @p e, in the bits of outer_edges: in the
+     * order of the faces, and the same in any partition. Among the faces around a node, or beside
+     * an edge, the least one identifies it, on meshes of up to 2^23 coarse cells. */
+    std::uint64_t
+    node_key(const unsigned int m) const
+    {
+      return key * parts + m;
+    }
+    std::uint64_t
+    edge_key(const unsigned int e) const
+    {
+      return key * parts + max_nodes + e;
     }
 
     /** @brief The number of a node on the face; n_nodes() if it is not one of its nodes. */
