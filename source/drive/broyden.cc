@@ -69,6 +69,7 @@ namespace Touchstone
   Broyden::begin(const Numbers &guess)
   {
     changes = n_differences = 0;
+    longest                 = 0.;
     inverse.resize(guess.size() * guess.size());
     jump(guess);
   }
@@ -104,26 +105,25 @@ namespace Touchstone
         return end_differences(sizes);
       }
     learn(residual, sizes);
-    // So far a step may go wrong before it is shortened; the method needs some freedom.
-    constexpr double growth  = 2.;
-    double           longest = sizes.largest_step;
+    // A trust region: larger where changes of that size have taken a good part of the residual.
+    constexpr double good = 0.75, nearly = 0.9, factor = 2.;
+    if (longest == 0.)
+      longest = sizes.first_step;
+    double allowed = longest;
     if (best.empty() || norm(residual) < norm(best_residual))
       {
+        if (!best.empty() && norm(residual) < good * norm(best_residual) &&
+            norm(difference_of(present, best)) > nearly * longest)
+          allowed = longest *= factor;
         best          = present;
         best_residual = residual;
       }
-    else if (norm(residual) > growth * norm(best_residual))
-      longest = std::min(longest, 0.5 * norm(difference_of(present, best)));
     else
-      {
-        // On from here, as from the best state.
-        best          = present;
-        best_residual = residual;
-      }
+      allowed = std::min(longest, 0.5 * norm(difference_of(present, best)));
     if (n_differences < 2 && changes >= (n_differences + 1) * (8 + 3 * n))
       take_difference(0, sizes);
     else
-      step_from_best(longest);
+      step_from_best(allowed);
     return {};
   }
 
@@ -151,14 +151,14 @@ namespace Touchstone
 
 
   void
-  Broyden::step_from_best(const double longest)
+  Broyden::step_from_best(const double allowed)
   {
     const std::size_t n = best.size();
     Numbers           step(n);
     for (std::size_t c = 0; c < n; ++c)
       for (std::size_t k = 0; k < n; ++k)
         step[c] -= inverse[c * n + k] * best_residual[k];
-    const double length = norm(step), part = length > longest ? longest / length : 1.;
+    const double length = norm(step), part = length > allowed ? allowed / length : 1.;
     for (std::size_t c = 0; c < n; ++c)
       present[c] = best[c] + part * step[c];
   }
@@ -209,7 +209,7 @@ namespace Touchstone
         for (unsigned int i = 0; i < n; ++i)
           inverse[c * n + k] +=
             matrix.get_svd_vt()(i, c) * matrix.get_svd_u()(k, i) / matrix.singular_value(i);
-    step_from_best(sizes.largest_step);
+    step_from_best(longest);
     return {};
   }
 } // namespace Touchstone

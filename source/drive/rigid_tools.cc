@@ -180,18 +180,15 @@ namespace Touchstone
         return true;
       }
     const Numbers stiff = stiffness(results);
-    // No change is larger than what the forces would move the obstacle by, or than the motion so
-    // far: where contact closes or opens, stiffness says little farther away.
-    double motion = 0., soft = std::numeric_limits<double>::max();
+    // At first no change is larger than what the forces would move the obstacle by, or than the
+    // motion so far: where contact closes or opens, and where friction gives way, stiffness says
+    // little farther away.
+    double motion = 0.;
     for (const double x : broyden.x())
       motion = std::hypot(motion, x);
-    for (const RigidTool &tool : tools)
-      soft = std::min(soft, tool.modulus() * tool.face());
-    double longest = std::max(motion, 10. * found.largest / soft);
-    if (scheme)
-      for (const double stiffness : stiff)
-        longest = std::max(longest, 10. * found.largest / stiffness);
-    if (const auto direction = broyden.advance(found.missing, {stiff, found.largest, longest}))
+    const double first =
+      std::max(motion, found.largest / *std::min_element(stiff.begin(), stiff.end()));
+    if (const auto direction = broyden.advance(found.missing, {stiff, found.largest, first}))
       give_up(*direction, results);
     place();
     return true;

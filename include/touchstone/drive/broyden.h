@@ -24,8 +24,9 @@ namespace Touchstone
    * @brief Broyden's method for a few unknowns whose residual costs a solution of all bodies: the
    * caller evaluates the residual at x(), and advance() finds the next one.
    *
-   * It goes back to the best state where the residual grows much, and takes finite differences
-   * where the updates lead nowhere. Unknowns are lengths, residuals forces.
+   * It goes back to the best state where the residual grows, makes larger changes where they have
+   * paid off, and takes finite differences where the updates lead nowhere: far away there may be
+   * other solutions, which are not meant. Unknowns are lengths, residuals forces.
    */
   class Broyden
   {
@@ -64,8 +65,8 @@ namespace Touchstone
       Numbers stiffness;
       /** Of the forces that are to be in balance. */
       double force;
-      /** No change is larger, length. */
-      double largest_step;
+      /** No change is larger at first, length. */
+      double first_step;
     };
 
     /** @brief Take the residual at x(), and go on to another x().
@@ -78,7 +79,9 @@ namespace Touchstone
     /** Where the last residual was found, and what it was. */
     Numbers last, last_residual;
     /** The state with the smallest residual. */
-    Numbers      best, best_residual;
+    Numbers best, best_residual;
+    /** No change is larger, length; zero if that is not known yet. */
+    double       longest = 0.;
     unsigned int changes = 0;
     /** Finite differences: the present unknown, its step, and the columns so far. */
     std::optional<unsigned int> difference;
@@ -88,9 +91,9 @@ namespace Touchstone
 
     void
     learn(const Numbers &residual, const Sizes &sizes);
-    /** A step from the best state that is no longer than @p longest. */
+    /** A step from the best state that is no longer than @p allowed. */
     void
-    step_from_best(double longest);
+    step_from_best(double allowed);
     void
     take_difference(unsigned int k, const Sizes &sizes);
     std::optional<Numbers>
