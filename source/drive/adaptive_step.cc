@@ -61,6 +61,10 @@ namespace Touchstone
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
           summary.meshes.push_back({step, summary.cells, summary.unknowns, error});
+          if (scene.refinement.estimator == RefinementParameters::Estimator::contact_force &&
+              scene.has_friction())
+            warnings.add("the estimated errors of contact forces leave out what the mesh makes of "
+                         "friction ('Refinement/Estimator')");
           if (cycle == cycles || error < scene.refinement.tolerance)
             return newton;
           const bool marked = refinement.mark(*problem, time);

@@ -6,6 +6,7 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/narrow_contact.h>
 #include <touchstone/contact/turned_surfaces.h>
+#include <touchstone/contact/turned_ties.h>
 #include <touchstone/contact/unheld_edges.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/solid/turned_bodies.h>
@@ -133,6 +134,7 @@ namespace Touchstone
     if (!in_cycles)
       {
         tell(unheld_edges(state.contact));
+        tell(turned_ties(state.contact));
         const EndFindings surfaces = turned_surfaces(state.contact);
         tell(surfaces.warnings);
         if (!surfaces.failure.empty())

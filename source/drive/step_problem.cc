@@ -287,6 +287,16 @@ namespace Touchstone
 
 
 
+  std::string
+  StepProblem::advice() const
+  {
+    return scene.pairs.empty()
+             ? "Try more load steps, or a finer mesh."
+             : "Try more load steps, a finer mesh at the contact, or another enforcement.";
+  }
+
+
+
   StepFindings
   StepProblem::findings() const
   {

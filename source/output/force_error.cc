@@ -2,6 +2,8 @@
 
 #include <touchstone/output/step_quantity.h>
 
+#include <cmath>
+
 namespace Touchstone
 {
   namespace
@@ -14,7 +16,8 @@ namespace Touchstone
       evaluate(const ConvergedStep &step, StepValues &values) override
       {
         for (const auto &[pair, error] : step.force_errors)
-          values.add(pair, "estimated force error", error);
+          if (!std::isnan(error)) // without contact
+            values.add(pair, "estimated force error", error);
       }
 
       unsigned int

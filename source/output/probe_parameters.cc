@@ -53,6 +53,12 @@ namespace Touchstone
                                         : "means nothing unless 'Place' is 'boundary'",
                        boundary.empty() ? "name a boundary of the body"
                                         : "set that, or remove this key");
+    if (place == Place::boundary && point.norm() > 0.)
+      throw InputError(section(),
+                       "Point",
+                       Patterns::Tools::to_string(point),
+                       "means nothing while 'Place' is 'boundary'",
+                       "set that to 'point', or remove this key");
     if (place == Place::line && (end - point).norm() == 0.)
       throw InputError(section(),
                        "End point",

@@ -48,6 +48,31 @@ namespace Touchstone
 
 
   std::vector<CombinationRule>
+  estimate_rules(const Scene &scene, const BodyParameters &body)
+  {
+    using Estimator                     = RefinementParameters::Estimator;
+    const MaterialParameters &material  = body.material;
+    const auto               &estimator = scene.refinement.estimator;
+    const bool                of_forces = (estimator == Estimator::contact_force);
+    const std::string remedy = "take 'recovered stress', which estimates that of the stress";
+    return {{of_forces && scene.time_integration.dynamic(),
+             "Refinement",
+             "Estimator",
+             estimator.word(),
+             "estimates errors in static runs, but 'Time integration/Scheme' is '" +
+               scene.time_integration.scheme.word() + "'",
+             remedy},
+            {of_forces && !material.linear(),
+             "Refinement",
+             "Estimator",
+             estimator.word(),
+             "estimates errors of linear bodies, but '" + body.name + "' has " +
+               (material.thermal() ? "thermal strain" : "the law '" + material.law.name + "'"),
+             remedy}};
+  }
+
+
+  std::vector<CombinationRule>
   inertia_rules(const Scene &scene, const BodyParameters &body)
   {
     const TimeIntegrationParameters &time     = scene.time_integration;

@@ -25,7 +25,10 @@ namespace Touchstone
   check_combinations(const Scene &scene)
   {
     for (const BodyParameters &body : scene.bodies)
-      obey(element_rules(scene, body));
+      {
+        obey(element_rules(scene, body));
+        obey(estimate_rules(scene, body));
+      }
     for (const ContactPairParameters &pair : scene.pairs)
       {
         obey(pair_rules(scene, pair));

@@ -39,12 +39,12 @@ namespace Touchstone
              "is for static runs, but 'Time integration/Scheme' is '" +
                scene.time_integration.scheme.word() + "'",
              "set the scheme to 'static'"},
-            {pair.has_pretension() && scene.refinement.active(),
+            {pair.has_pretension() && scene.refinement.changes_mesh(),
              section,
              pair.pretension_force.empty() ? "Pretension shortening" : "Pretension force",
              pair.pretension_force + pair.pretension_shortening,
              "does not go over to a mesh that changes",
-             "set 'Refinement/Estimator' to 'none'"},
+             "set 'Refinement/Estimator' to 'none', or 'Cycles' and 'Cycles per step' to 0"},
             {!pair.pretension_until.empty() && std::none_of(scene.load_stepping.phases.begin(),
                                                             scene.load_stepping.phases.end(),
                                                             [&pair](const LoadPhase &phase) {

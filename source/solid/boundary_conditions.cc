@@ -206,6 +206,12 @@ namespace Touchstone
                          Patterns::Tools::to_string(value),
                          "has no effect: 'Fixed' of the body holds this boundary",
                          "remove this entry or take the boundary from that list");
+    if (condition.spring_normal > 0. && plane != supported.planes.end())
+      throw InputError(section,
+                       "Spring stiffness normal",
+                       Patterns::Tools::to_string(condition.spring_normal),
+                       "has no effect: 'Symmetry' of the body holds this boundary along its normal",
+                       "remove this entry or take the boundary from that list");
     const auto parse = [&](const std::string &key, const std::string &text) {
       return formulas.add(section, key, text);
     };

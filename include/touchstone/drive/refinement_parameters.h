@@ -55,6 +55,13 @@ namespace Touchstone
       return estimator != Estimator::none;
     }
 
+    /** @brief Whether the mesh changes: without cycles errors are only estimated. */
+    bool
+    changes_mesh() const
+    {
+      return active() && cycles + cycles_per_step > 0;
+    }
+
     void
     declare(dealii::ParameterHandler &prm);
     void

@@ -233,10 +233,7 @@ namespace Touchstone
 
     /** @brief What to try if a run cannot go on, as a sentence. */
     virtual std::string
-    advice() const
-    {
-      return "Try more load steps, a finer mesh at the contact, or another enforcement.";
-    }
+    advice() const = 0;
 
     /** @brief What a change of the mesh carries over. Collective. */
     virtual StepTransfer

@@ -51,6 +51,8 @@ namespace Touchstone
     next_attempt() const override;
     StepState
     state() const override;
+    std::string
+    advice() const override;
     std::optional<Vector>
     support_response(unsigned int body, const dealii::Tensor<1, dim> &direction) override;
     StepTransfer

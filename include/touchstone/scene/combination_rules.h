@@ -31,6 +31,11 @@ namespace Touchstone
   std::vector<CombinationRule>
   element_rules(const Scene &scene, const BodyParameters &body);
 
+  /** @brief Errors of contact forces are estimated in statics, of linear bodies (doc/theory.md 11).
+   */
+  std::vector<CombinationRule>
+  estimate_rules(const Scene &scene, const BodyParameters &body);
+
   /** @brief Inertia needs densities; initial velocities and damping need inertia. */
   std::vector<CombinationRule>
   inertia_rules(const Scene &scene, const BodyParameters &body);
