@@ -69,7 +69,7 @@ namespace Touchstone
   Broyden::begin(const Numbers &guess)
   {
     changes = n_differences = 0;
-    longest                 = 0.;
+    cautious                = false;
     inverse.resize(guess.size() * guess.size());
     jump(guess);
   }
@@ -105,16 +105,20 @@ namespace Touchstone
         return end_differences(sizes);
       }
     learn(residual, sizes);
-    // A trust region: larger where changes of that size have taken a good part of the residual.
-    constexpr double good = 0.75, nearly = 0.9, factor = 2.;
-    if (longest == 0.)
-      longest = sizes.first_step;
+    // So far a step may go wrong before it is shortened; the method needs some freedom.
+    const double growth = sizes.cautious ? 1. : 2.;
+    if (!sizes.cautious || !cautious)
+      longest = sizes.largest_step;
+    cautious       = sizes.cautious;
     double allowed = longest;
-    if (best.empty() || norm(residual) < norm(best_residual))
+    if (best.empty() || norm(residual) <= growth * norm(best_residual))
       {
-        if (!best.empty() && norm(residual) < good * norm(best_residual) &&
+        // A trust region: larger where changes of that size have taken a good part of the residual.
+        constexpr double good = 0.75, nearly = 0.9, factor = 2.;
+        if (cautious && !best.empty() && norm(residual) < good * norm(best_residual) &&
             norm(difference_of(present, best)) > nearly * longest)
           allowed = longest *= factor;
+        // On from here, as from the best state.
         best          = present;
         best_residual = residual;
       }

@@ -180,15 +180,27 @@ namespace Touchstone
         return true;
       }
     const Numbers stiff = stiffness(results);
-    // At first no change is larger than what the forces would move the obstacle by, or than the
-    // motion so far: where contact closes or opens, and where friction gives way, stiffness says
-    // little farther away.
-    double motion = 0.;
+    // Far away, where all nodes slide, the chord of their way, not the way, gives friction its
+    // direction, and there are other balances.
+    bool   friction = false;
+    double motion = 0., soft = std::numeric_limits<double>::max();
+    for (const RigidTool &tool : tools)
+      {
+        soft = std::min(soft, tool.modulus() * tool.face());
+        for (const unsigned int p : tool.pairs())
+          friction = friction || contact.pair(p).parameters().friction;
+      }
+    // No change is larger than what the forces would move the obstacle by, or than the motion so
+    // far: where contact closes or opens, stiffness says little farther away.
     for (const double x : broyden.x())
       motion = std::hypot(motion, x);
-    const double first =
-      std::max(motion, found.largest / *std::min_element(stiff.begin(), stiff.end()));
-    if (const auto direction = broyden.advance(found.missing, {stiff, found.largest, first}))
+    const double stiffness = *std::min_element(stiff.begin(), stiff.end());
+    double       by_forces = found.largest / stiffness;
+    if (!friction)
+      by_forces = 10. * std::max(scheme ? by_forces : 0., found.largest / soft);
+    if (const auto direction =
+          broyden.advance(found.missing,
+                          {stiff, found.largest, std::max(motion, by_forces), friction}))
       give_up(*direction, results);
     place();
     return true;

@@ -24,9 +24,10 @@ namespace Touchstone
    * @brief Broyden's method for a few unknowns whose residual costs a solution of all bodies: the
    * caller evaluates the residual at x(), and advance() finds the next one.
    *
-   * It goes back to the best state where the residual grows, makes larger changes where they have
-   * paid off, and takes finite differences where the updates lead nowhere: far away there may be
-   * other solutions, which are not meant. Unknowns are lengths, residuals forces.
+   * It goes back to the best state where the residual grows much, and takes finite differences
+   * where the updates lead nowhere. Where far away there may be other solutions, which are not
+   * meant, it is cautious: the residual may not grow, and changes are larger than at first only
+   * where they have paid off. Unknowns are lengths, residuals forces.
    */
   class Broyden
   {
@@ -65,8 +66,9 @@ namespace Touchstone
       Numbers stiffness;
       /** Of the forces that are to be in balance. */
       double force;
-      /** No change is larger at first, length. */
-      double first_step;
+      /** No change is larger, length; if it is cautious, at first. */
+      double largest_step;
+      bool   cautious = false;
     };
 
     /** @brief Take the residual at x(), and go on to another x().
@@ -80,9 +82,10 @@ namespace Touchstone
     Numbers last, last_residual;
     /** The state with the smallest residual. */
     Numbers best, best_residual;
-    /** No change is larger, length; zero if that is not known yet. */
-    double       longest = 0.;
-    unsigned int changes = 0;
+    /** No change is larger, length. */
+    double       longest  = 0.;
+    bool         cautious = false;
+    unsigned int changes  = 0;
     /** Finite differences: the present unknown, its step, and the columns so far. */
     std::optional<unsigned int> difference;
     double                      width         = 0.;
