@@ -74,11 +74,12 @@ namespace Touchstone
   std::vector<std::string>
   turned_ties(const Contact &contact)
   {
-    constexpr double          part  = 0.1;
+    // Smaller turns are those of round-off, as of a body that nothing strains.
+    constexpr double          part = 0.1, round_off = 1e-8;
     const std::vector<double> turns = strains_of_turns(contact);
     std::vector<std::string>  result;
     for (unsigned int p = 0; p < turns.size(); ++p)
-      if (turns[p] > 0.)
+      if (turns[p] > round_off)
         {
           const ContactPair &pair   = contact.pair(p);
           const double       strain = mean_strain(contact, pair.slave_body());
