@@ -43,6 +43,21 @@ namespace Touchstone
 
 
 
+  void
+  Simulation::tell_of_estimate()
+  {
+    if (scene.refinement.estimator == RefinementParameters::Estimator::contact_force &&
+        scene.has_friction())
+      warnings.add("the estimated errors of contact forces leave out what the mesh makes of "
+                   "friction ('Refinement/Estimator'): they may be of another size and sign");
+    for (const auto &[pair, reason] : refinement.missing())
+      warnings.add(
+        "the error of the force of contact pair '" + scene.pairs[pair].name +
+        "' is not estimated in all steps, nor is 'Refinement/Tolerance' reached there: " + reason);
+  }
+
+
+
   unsigned int
   Simulation::adapt(const unsigned int step, const double time)
   {
@@ -61,10 +76,7 @@ namespace Touchstone
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
           summary.meshes.push_back({step, summary.cells, summary.unknowns, error});
-          if (scene.refinement.estimator == RefinementParameters::Estimator::contact_force &&
-              scene.has_friction())
-            warnings.add("the estimated errors of contact forces leave out what the mesh makes of "
-                         "friction ('Refinement/Estimator')");
+          tell_of_estimate();
           if (cycle == cycles || error < scene.refinement.tolerance)
             return newton;
           const bool marked = refinement.mark(*problem, time);

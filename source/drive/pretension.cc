@@ -187,6 +187,14 @@ namespace Touchstone
 
 
 
+  bool
+  Pretension::by_force() const
+  {
+    return std::any_of(cuts.begin(), cuts.end(), [this](const Cut &cut) { return by_force(cut); });
+  }
+
+
+
   void
   Pretension::commit()
   {

@@ -115,9 +115,10 @@ namespace Touchstone
     const Vector u  = problem.state().ghosted_displacement();
     errors.reinit(forest.triangulation.n_active_cells());
     variation.reinit(forest.triangulation.n_active_cells());
+    without.clear();
     // The region needs no error estimate, and gives none.
     if (parameters.estimator == Estimator::region)
-      return 0.;
+      return std::nan("");
     if (parameters.estimator == Estimator::kelly)
       errors = jump_errors(solid, u);
     else if (parameters.estimator == Estimator::recovered_stress)
@@ -131,13 +132,15 @@ namespace Touchstone
         solid.round_off(problem.state().displacement) * problem.state().displacement.l2_norm())
       {
         errors = 0.;
-        return 0.;
+        std::fill(forces.begin(), forces.end(), std::nan(""));
+        return parameters.estimator == Estimator::contact_force ? std::nan("") : 0.;
       }
     if (parameters.estimator == Estimator::contact_force)
       {
         const ForceEstimate estimate(problem);
-        errors = estimate.cells;
-        forces = estimate.relative;
+        errors  = estimate.cells;
+        forces  = estimate.relative;
+        without = estimate.missing;
         return estimate.largest();
       }
     // Relative error in the energy norm, (Sum eta_K^2 / 2E)^(1/2), doc/theory.md 11, "Estimators".

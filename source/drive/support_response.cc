@@ -11,9 +11,10 @@ namespace Touchstone
   // The linear system of a Newton iteration answers what the bodies do if supports move: in the
   // converged state its right-hand side vanishes but for that motion. All enforcements can give it.
   std::optional<Vector>
-  StepProblem::support_response(const unsigned int body, const Tensor<1, dim> &direction)
+  StepProblem::support_response(const std::vector<bool> &bodies, const Tensor<1, dim> &direction)
   {
-    if (!solid.linear())
+    // Bolts that forces draw would have to give way.
+    if (!solid.linear() || integration->dynamic() || pretension.by_force())
       return std::nullopt;
     // About as far as the bodies have moved, so that what is left of the residual is small beside
     // it.
@@ -21,7 +22,7 @@ namespace Touchstone
     Vector             behind(u);
     std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->material_id() == body)
+      if (cell->is_locally_owned() && bodies[cell->material_id()])
         {
           cell->get_dof_indices(dofs);
           for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -30,13 +31,16 @@ namespace Touchstone
                 u(dofs[i]) - distance * direction[solid.fe.system_to_component_index(i).first];
         }
     behind.compress(VectorOperation::insert);
-    // The supports find the body that far behind, and take it along.
+    // The supports find the bodies that far behind, and take them along, and so does the ground.
     system->prescribe(time, behind);
+    Vector moved(behind), forces(applied);
+    moved -= u;
+    boundary_conditions.ground_springs().add_force(moved, forces);
     // Newton's iterations would mend a solution that is less accurate, but here there is one: with
     // 1e-4 the estimate depended on the number of ranks by 1e-3.
     system->assemble({time,
                       u,
-                      applied,
+                      forces,
                       unbalanced,
                       relative_residual,
                       scene.linear_solver.tolerance,

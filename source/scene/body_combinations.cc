@@ -5,6 +5,8 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
+
 namespace Touchstone
 {
   std::vector<CombinationRule>
@@ -55,12 +57,30 @@ namespace Touchstone
     const auto               &estimator = scene.refinement.estimator;
     const bool                of_forces = (estimator == Estimator::contact_force);
     const std::string remedy = "take 'recovered stress', which estimates that of the stress";
-    return {{of_forces && scene.time_integration.dynamic(),
+    const auto        forced = std::find_if(scene.obstacles.begin(),
+                                     scene.obstacles.end(),
+                                     [](const auto &obstacle) { return obstacle.free.any(); });
+    const bool        moved  = forced != scene.obstacles.end();
+    return {{of_forces && scene.pairs.empty(),
+             "Refinement",
+             "Estimator",
+             estimator.word(),
+             "estimates errors of contact forces, but there are no contact pairs",
+             remedy},
+            {of_forces && scene.time_integration.dynamic() &&
+               !scene.time_integration.runs_in_cycles(),
              "Refinement",
              "Estimator",
              estimator.word(),
              "estimates errors in static runs, but 'Time integration/Scheme' is '" +
                scene.time_integration.scheme.word() + "'",
+             remedy},
+            {of_forces && moved,
+             "Refinement",
+             "Estimator",
+             estimator.word(),
+             "estimates errors with obstacles that do not give way, but forces move '" +
+               (moved ? forced->name : "") + "'",
              remedy},
             {of_forces && !material.linear(),
              "Refinement",

@@ -54,7 +54,7 @@ namespace Touchstone
        dealii::Patterns::Tools::to_string(contact.penalty_factor),
        "lets the multipliers of 'augmented lagrange' diverge in explicit dynamics",
        "take less than 2; 1 is the automatic choice"},
-      {scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
+      {scene.refinement.changes_mesh() && discretised.partitioner != Partitioner::p4est &&
          discretised.partitioner != Partitioner::automatic,
        "Discretisation",
        "Partitioner",

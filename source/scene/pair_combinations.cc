@@ -62,7 +62,15 @@ namespace Touchstone
              pair.sliding.word(),
              "a tied pair cannot slide",
              "remove 'Sliding' or set it to 'small'"},
-            {pair.of_one_body() && scene.refinement.active(),
+            {pair.of_one_body() &&
+               scene.refinement.estimator == RefinementParameters::Estimator::contact_force,
+             "Refinement",
+             "Estimator",
+             scene.refinement.estimator.word(),
+             "estimates no error of contact pair '" + pair.name + "', in which '" +
+               pair.slave_body + "' touches itself",
+             "set it to 'none', and take a finer mesh"},
+            {pair.of_one_body() && scene.refinement.changes_mesh(),
              "Refinement",
              "Estimator",
              scene.refinement.estimator.word(),

@@ -343,7 +343,7 @@ namespace Touchstone
   {
     ForestInput input;
     input.discretisation  = discretisation;
-    input.refines         = refinement.active();
+    input.refines         = refinement.changes_mesh();
     input.computes_ghosts = time_integration.runs_in_cycles();
     // Relative cost of a cell for the partitioning: nonlinear laws are evaluated in each iteration,
     // linear stiffness is assembled once per run.

@@ -51,6 +51,12 @@ namespace Touchstone
       return found;
     }
 
+    /** @brief Whether the tension of a cut is given at present, which then has no length of its
+     * own.
+     */
+    bool
+    by_force() const;
+
     void
     commit() override;
     void

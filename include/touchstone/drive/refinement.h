@@ -12,7 +12,9 @@
 #include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Touchstone
@@ -34,7 +36,7 @@ namespace Touchstone
     /**
      * @brief Estimate the errors of the present state of @p problem.
      * @return that of the stress, relative in the energy norm, or the largest of a contact force
-     * (ForceEstimate); no unit; 0 without an estimator. Collective.
+     * (ForceEstimate); no unit; NaN if there is no estimate. Collective.
      */
     double
     estimate(Step &problem);
@@ -45,6 +47,14 @@ namespace Touchstone
     force_errors() const
     {
       return forces;
+    }
+
+    /** @brief Of the last estimate(): why pairs whose force it was about have none, by numbers of
+     * pairs. */
+    const std::map<unsigned int, std::string> &
+    missing() const
+    {
+      return without;
     }
 
     /** @brief Whether the last mark() refined no cell because "Maximum cells" would be exceeded;
@@ -83,6 +93,8 @@ namespace Touchstone
      * the pressure over their slave faces. */
     Values              errors, variation;
     std::vector<double> forces;
+    /** Why pairs have no estimate. */
+    std::map<unsigned int, std::string> without;
 
     /** Change the mesh, and take fields along. */
     std::vector<Vector>

@@ -163,6 +163,9 @@ namespace Touchstone
     /** Solve the step to @p time. @return Newton iterations. */
     unsigned int
     solve_step(double time);
+    /** Warn of what the last estimate of errors leaves out. */
+    void
+    tell_of_estimate();
     /** Refine the mesh by the state at @p time, solve the step again, and so on.
      * @return Newton iterations. */
     unsigned int

@@ -198,12 +198,14 @@ namespace Touchstone
     virtual StepState
     state() const = 0;
 
-    /** @brief The displacement by which all bodies respond to a unit motion of the supports of one
-     * @p body along @p direction, contact as it is in the present state; no unit. The error of a
-     * contact force is weighted with it (ForceEstimate). Nothing for steps that are not solved by
-     * iterations, and for bodies that are not linear. Collective. */
+    /** @brief The displacement by which all bodies respond to a unit motion along @p direction of
+     * the supports of those @p bodies that are marked, and of the ground of their springs, contact
+     * as it is in the present state; no unit. The error of a contact force is weighted with it
+     * (ForceEstimate). Nothing for steps that are not solved by iterations, in dynamics, for
+     * bodies that are not linear, and while forces draw bolts. Collective. */
     virtual std::optional<Vector>
-    support_response(unsigned int /*body*/, const dealii::Tensor<1, dim> & /*direction*/)
+    support_response(const std::vector<bool> & /*bodies*/,
+                     const dealii::Tensor<1, dim> & /*direction*/)
     {
       return std::nullopt;
     }

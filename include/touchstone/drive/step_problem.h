@@ -54,7 +54,8 @@ namespace Touchstone
     std::string
     advice() const override;
     std::optional<Vector>
-    support_response(unsigned int body, const dealii::Tensor<1, dim> &direction) override;
+    support_response(const std::vector<bool>      &bodies,
+                     const dealii::Tensor<1, dim> &direction) override;
     StepTransfer
     transfer() const override;
     void
