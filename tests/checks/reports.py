@@ -4,7 +4,7 @@
 # ctest: goldens = gap_closed
 # ctest: label = quick
 
-from touchstone_test import finish, golden
+from touchstone_test import check, checks, finish, golden, run
 
 for scene, text in (
         ("tresca_at_supports", "3 contact row(s) dropped"),
@@ -14,4 +14,9 @@ for scene, text in (
                             "in y or turn about z"),
         ("gap_closed", "smallest gap 0.005")):
     golden(scene).says(text)
+# Without contact nobody is advised to change it.
+turned = run("turned", checks / "turned_on_springs.prm", fails=True)
+turned.says("has turned by 26.2 degrees")
+check("contact" not in turned.log.split("The last converged state", 1)[-1],
+      "turned: advice on contact in a scene without")
 finish()
