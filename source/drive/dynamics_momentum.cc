@@ -33,7 +33,7 @@ namespace Touchstone
     // free: half of a body on a plane of symmetry moves on as the whole one does.
     const std::vector<RigidFrame> frames = rigid_frames(solid);
     std::vector<Vector>           motions;
-    for (unsigned int k = 0; k < 2 * dim; ++k)
+    for (unsigned int k = 0; k < n_rigid_modes; ++k)
       motions.push_back(moved_rigidly(k, frames));
     std::vector<std::vector<Numbers>> momenta;
     for (const Vector &motion : motions)
@@ -45,7 +45,7 @@ namespace Touchstone
         missing[r]                     = rigid_momenta(before[r], frames);
         const std::vector<Numbers> are = rigid_momenta(momenta_of(*now[r]), frames);
         for (std::size_t b = 0; b < are.size(); ++b)
-          for (unsigned int k = 0; k < 2 * dim; ++k)
+          for (unsigned int k = 0; k < n_rigid_modes; ++k)
             missing[r][b][k] -= are[b][k];
       }
     for (unsigned int b = 0; b < solid.bodies.size(); ++b)
@@ -53,16 +53,16 @@ namespace Touchstone
         const FullMatrix<double> free = free_motions(b, motions, forces.remove_support);
         if (free.n() == 0)
           continue;
-        FullMatrix<double> inertia(2 * dim);
-        for (unsigned int k = 0; k < 2 * dim; ++k)
-          for (unsigned int i = 0; i < 2 * dim; ++i)
+        FullMatrix<double> inertia(n_rigid_modes);
+        for (unsigned int k = 0; k < n_rigid_modes; ++k)
+          for (unsigned int i = 0; i < n_rigid_modes; ++i)
             inertia(i, k) = momenta[k][b][i];
         for (unsigned int r = 0; r < now.size(); ++r)
           {
             const Numbers amplitudes = motion_with(missing[r][b], inertia, free);
             for (std::size_t i = 0; i < body.size(); ++i)
               if (body[i] == b)
-                for (unsigned int k = 0; k < 2 * dim; ++k)
+                for (unsigned int k = 0; k < n_rigid_modes; ++k)
                   now[r]->begin()[i] += amplitudes[k] * motions[k].begin()[i];
           }
       }
@@ -83,9 +83,9 @@ namespace Touchstone
   {
     // In the basis of the free motions: inertia * part = momentum.
     const unsigned int     n = free.n();
-    FullMatrix<double>     of_basis(2 * dim, n), small(n);
+    FullMatrix<double>     of_basis(n_rigid_modes, n), small(n);
     dealii::Vector<double> rhs(momentum.begin(), momentum.end()), rest(n), part(n),
-      amplitudes(2 * dim);
+      amplitudes(n_rigid_modes);
     inertia.mmult(of_basis, free);
     free.Tmmult(small, of_basis);
     free.Tvmult(rest, rhs);

@@ -50,45 +50,47 @@ namespace Touchstone
 
 
   std::vector<CombinationRule>
-  estimate_rules(const Scene &scene, const BodyParameters &body)
+  estimate_rules(const Scene &scene)
   {
-    using Estimator                     = RefinementParameters::Estimator;
-    const MaterialParameters &material  = body.material;
-    const auto               &estimator = scene.refinement.estimator;
-    const bool                of_forces = (estimator == Estimator::contact_force);
-    const std::string remedy = "take 'recovered stress', which estimates that of the stress";
-    const auto        forced = std::find_if(scene.obstacles.begin(),
+    using Estimator             = RefinementParameters::Estimator;
+    const auto       &estimator = scene.refinement.estimator;
+    const bool        of_forces = (estimator == Estimator::contact_force);
+    const std::string remedy    = "take 'recovered stress', which estimates that of the stress";
+    const auto        forced    = std::find_if(scene.obstacles.begin(),
                                      scene.obstacles.end(),
                                      [](const auto &obstacle) { return obstacle.free.any(); });
-    const bool        moved  = forced != scene.obstacles.end();
-    return {{of_forces && scene.pairs.empty(),
-             "Refinement",
-             "Estimator",
-             estimator.word(),
-             "estimates errors of contact forces, but there are no contact pairs",
-             remedy},
-            {of_forces && scene.time_integration.dynamic() &&
-               !scene.time_integration.runs_in_cycles(),
-             "Refinement",
-             "Estimator",
-             estimator.word(),
-             "estimates errors in static runs, but 'Time integration/Scheme' is '" +
-               scene.time_integration.scheme.word() + "'",
-             remedy},
-            {of_forces && moved,
-             "Refinement",
-             "Estimator",
-             estimator.word(),
-             "estimates errors with obstacles that do not give way, but forces move '" +
-               (moved ? forced->name : "") + "'",
-             remedy},
-            {of_forces && !material.linear(),
-             "Refinement",
-             "Estimator",
-             estimator.word(),
-             "estimates errors of linear bodies, but '" + body.name + "' has " +
-               (material.thermal() ? "thermal strain" : "the law '" + material.law.name + "'"),
-             remedy}};
+    const bool        moved     = forced != scene.obstacles.end();
+    std::vector<CombinationRule> rules = {
+      {of_forces && scene.pairs.empty(),
+       "Refinement",
+       "Estimator",
+       estimator.word(),
+       "estimates errors of contact forces, but there are no contact pairs",
+       remedy},
+      {of_forces && scene.time_integration.dynamic() && !scene.time_integration.runs_in_cycles(),
+       "Refinement",
+       "Estimator",
+       estimator.word(),
+       "estimates errors in static runs, but 'Time integration/Scheme' is '" +
+         scene.time_integration.scheme.word() + "'",
+       remedy},
+      {of_forces && moved,
+       "Refinement",
+       "Estimator",
+       estimator.word(),
+       "estimates errors with obstacles that do not give way, but forces move '" +
+         (moved ? forced->name : "") + "'",
+       remedy}};
+    for (const BodyParameters &body : scene.bodies)
+      rules.push_back({of_forces && !body.material.linear(),
+                       "Refinement",
+                       "Estimator",
+                       estimator.word(),
+                       "estimates errors of linear bodies, but '" + body.name + "' has " +
+                         (body.material.thermal() ? "thermal strain"
+                                                  : "the law '" + body.material.law.name + "'"),
+                       remedy});
+    return rules;
   }
 
 

@@ -25,10 +25,8 @@ namespace Touchstone
   check_combinations(const Scene &scene)
   {
     for (const BodyParameters &body : scene.bodies)
-      {
-        obey(element_rules(scene, body));
-        obey(estimate_rules(scene, body));
-      }
+      obey(element_rules(scene, body));
+    obey(estimate_rules(scene));
     for (const ContactPairParameters &pair : scene.pairs)
       {
         obey(pair_rules(scene, pair));

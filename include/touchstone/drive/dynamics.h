@@ -165,7 +165,7 @@ namespace Touchstone
      */
     std::vector<BodyMomentum>
     momenta_of(const Vector &velocity) const;
-    using Numbers = std::array<double, 2 * dim>;
+    using Numbers = std::array<double, n_rigid_modes>;
     /** Products of the momentum of each body with its unit rigid motions. */
     static std::vector<Numbers>
     rigid_momenta(const std::vector<BodyMomentum> &momenta, const std::vector<RigidFrame> &frames);

@@ -34,7 +34,7 @@ namespace Touchstone
   /** @brief Errors of contact forces are estimated in statics, of linear bodies (doc/theory.md 11).
    */
   std::vector<CombinationRule>
-  estimate_rules(const Scene &scene, const BodyParameters &body);
+  estimate_rules(const Scene &scene);
 
   /** @brief Inertia needs densities; initial velocities and damping need inertia. */
   std::vector<CombinationRule>
