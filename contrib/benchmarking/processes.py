@@ -51,7 +51,10 @@ def run(command, folder, log, time_limit):
 
         def stop():
             timed_out.set()
-            os.killpg(process.pid, signal.SIGTERM)
+            try:
+                os.killpg(process.pid, signal.SIGTERM)
+            except ProcessLookupError:
+                timed_out.clear()  # it has just ended by itself
 
         watch = threading.Timer(time_limit, stop)
         watch.start()

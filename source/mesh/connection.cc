@@ -80,16 +80,18 @@ namespace Touchstone
       const double                                                width = 8. * tolerance;
       for (const unsigned int v : vertices)
         {
-          std::array<double, 3> low, high;
+          std::array<double, 3> low;
+          std::array<bool, 3>   also_next;
           for (unsigned int d = 0; d < 3; ++d)
             {
-              low[d]  = std::floor((mesh.vertices[v][d] - tolerance) / width);
-              high[d] = std::floor((mesh.vertices[v][d] + tolerance) / width);
+              low[d]       = std::floor((mesh.vertices[v][d] - tolerance) / width);
+              also_next[d] = std::floor((mesh.vertices[v][d] + tolerance) / width) > low[d];
             }
-          for (double i = low[0]; i <= high[0]; ++i)
-            for (double j = low[1]; j <= high[1]; ++j)
-              for (double k = low[2]; k <= high[2]; ++k)
-                in_boxes.push_back({{{i, j, k}}, v});
+          // Counted in integers: far away the next number after that of a box is the same one.
+          for (int i = 0; i <= also_next[0]; ++i)
+            for (int j = 0; j <= also_next[1]; ++j)
+              for (int k = 0; k <= also_next[2]; ++k)
+                in_boxes.push_back({{{low[0] + i, low[1] + j, low[2] + k}}, v});
         }
       std::sort(in_boxes.begin(), in_boxes.end());
       std::set<std::pair<unsigned int, unsigned int>> result;
