@@ -87,6 +87,14 @@ namespace Touchstone
       std::fill(present.begin(), present.end(), T());
     }
 
+    /** @brief Call @p change with each present entry. */
+    template <class Change>
+    void
+    for_each(const Change &change)
+    {
+      std::for_each(present.begin(), present.end(), change);
+    }
+
     void
     reset(const ContactRow &row) override
     {

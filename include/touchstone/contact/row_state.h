@@ -4,6 +4,7 @@
 #define touchstone_contact_row_state_h
 
 #include <touchstone/base/on_demand.h>
+#include <touchstone/contact/enforcement/spring_stiffness.h>
 #include <touchstone/contact/friction/friction_force.h>
 #include <touchstone/contact/row.h>
 
@@ -43,6 +44,8 @@ namespace Touchstone
     bool normal_accepted = true;
     /** Part of a cyclic dependency between contact pairs: imposes no constraint. */
     bool redundant = false;
+    /** Of conditions that were refused and can be met. Begins anew with each step. */
+    SpringStiffness spring;
     /** Only of rows with friction; others do not ask for it, for it is most of a state. */
     OnDemand<FrictionForce> friction;
 
@@ -82,6 +85,7 @@ namespace Touchstone
     {
       lambda = 0.;
       force  = dealii::Tensor<1, dim>();
+      spring = SpringStiffness();
       if (friction.made())
         friction->clear();
     }

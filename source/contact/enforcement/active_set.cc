@@ -154,12 +154,13 @@ namespace Touchstone
     violated_gap(const ContactRow &row, const RowState &state)
     {
       if (row.tied)
-        return std::max(tied_gap(row, state) - state.admissible_gap, 0.) / row.size;
+        return std::max(tied_gap(row, state) - state.admissible_gap, 0.) / row.size *
+               state.spring.strictness();
       double gap = 0.;
       if (state.normal_accepted && (state.active() || row.gap < 0.))
         gap = std::abs(row.gap - (state.active() ? state.admissible_gap : 0.)) / row.size;
       if (!row.friction)
-        return gap;
+        return gap * state.spring.strictness();
       // A gap that is left in this row is elastic slip of the other rows of a shared node, where it
       // causes friction of c times the gap; so it is judged c / (E A / h) times as strictly.
       if (state.friction->shared && state.active() && state.normal_accepted)
@@ -169,7 +170,7 @@ namespace Touchstone
       // Stick without elastic slip admits no slip at all.
       if (!state.friction->carried && !state.dropped())
         gap = std::max(gap, slip_off_direction(row, state) / row.size);
-      return gap;
+      return gap * state.spring.strictness();
     }
 
 
@@ -231,7 +232,7 @@ namespace Touchstone
             // Springs of regularised friction resist from the next linear system on; their
             // force acts after it.
             if (state.friction->carried)
-              friction_response(row, state.status, state.lambda, *state.friction);
+              friction_response(row, state.lambda, state);
           }
         return;
       }

@@ -48,6 +48,14 @@ namespace Touchstone
 
 
   void
+  Enforcement::begin_step()
+  {
+    row_states.for_each([](RowState &state) { state.spring = SpringStiffness(); });
+  }
+
+
+
+  void
   Enforcement::update_partners(const ContactRows &rows, const bool first)
   {
     for (const ContactRow &row : rows)

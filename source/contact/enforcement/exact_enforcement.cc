@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 // What elimination and Lagrange multipliers share (doc/theory.md 6): active rows become conditions
@@ -21,6 +22,8 @@ namespace Touchstone
   void
   ExactEnforcement::evaluate(const Contact &contact, const Vector &, const ConstraintGraph &)
   {
+    if (solved)
+      find_gaps_of_springs();
     for (const ContactRow &row : contact.rows())
       {
         RowState &state = row_states[row];
@@ -28,12 +31,14 @@ namespace Touchstone
         if (row.friction)
           choose_friction(row, state);
         // A dropped row carries no force; its friction would have no bound, for its status stays.
-        if (!state.active() || row.tied || state.dropped())
+        if (!state.active() || state.dropped())
           continue;
         // Once per linear solve: evaluations without one in between, as at the start of a step,
         // must not augment again.
-        if (solved && state.fully_constrained())
+        if (solved && row.friction && state.fully_constrained())
           augment_unconstrained(row, state);
+        if (solved)
+          judge_springs(row, state);
         evaluate_force(row, state);
       }
     solved = false;
@@ -107,9 +112,9 @@ namespace Touchstone
         RowState &state              = row_states[*row];
         if (!state.record(condition, can_be_met[k]))
           continue;
-        // The force after the solve is the present one less 100 c (g + dg), and the value of the
+        // The force after the solve is the present one less k (g + dg), and the value of the
         // condition is -g.
-        const double stiffness = RefusedConditions::stiffness(*row);
+        const double stiffness = state.spring.of(row->stiffness);
         const double present   = row->tied ? state.force * condition.direction : state.lambda;
         const double force     = present + stiffness * condition.value;
         terms.add_spring(*row, condition, force, stiffness);
@@ -126,6 +131,17 @@ namespace Touchstone
 
 
   void
+  ExactEnforcement::find_gaps_of_springs()
+  {
+    for (const Accepted &entry : accepted)
+      if (entry.treatment == ConstraintGraph::Treatment::spring)
+        row_states[*entry.row].spring.found(std::abs(
+          entry.row->tied ? entry.row->gap_vector * entry.condition.direction : entry.row->gap));
+  }
+
+
+
+  void
   ExactEnforcement::take_springs(const LinearSolution &solution)
   {
     if (!has_springs)
@@ -135,11 +151,11 @@ namespace Touchstone
       if (entry.treatment == ConstraintGraph::Treatment::spring)
         forms.push_back(by_unknowns(entry.condition.motion_form()));
     const std::vector<double> elongations = evaluate_forms(forms, solution.increment);
-    std::size_t               spring      = 0;
+    std::size_t               next        = 0;
     for (std::size_t k = 0; k < accepted.size(); ++k)
-      if (accepted[k].treatment == ConstraintGraph::Treatment::spring)
-        forces[k] = accepted[k].force -
-                    RefusedConditions::stiffness(*accepted[k].row) * elongations[spring++];
+      if (const auto &[row, condition, number, treatment, normal, force] = accepted[k];
+          treatment == ConstraintGraph::Treatment::spring)
+        forces[k] = force - row_states[*row].spring.of(row->stiffness) * elongations[next++];
   }
 
 

@@ -295,9 +295,9 @@ namespace Touchstone
     Tensor<2, dim>        tangent  = f.tangent;
     if (state.fully_constrained())
       {
-        // Refused conditions of stick are replaced by springs of 100 c along their tangents, with
-        // the augmented force as load; see augment_unconstrained().
-        const double spring = FrictionForce::unconstrained_stiffness(row.stiffness);
+        // Refused conditions of stick are replaced by springs along their tangents, with the
+        // augmented force as load; see augment_unconstrained().
+        const double spring = state.spring.of(row.stiffness);
         for (const Tensor<1, dim> &direction : f.unconstrained)
           {
             constant += (f.base * direction - spring * (k.slip * direction)) * direction;

@@ -31,7 +31,7 @@ namespace Touchstone
           // The forces may have been augmented since they were evaluated, so that the friction
           // response has to be made anew for the linear system.
           choose_formulation(row, state, epsilon(row));
-          friction_response(row, state.status, normal_force(row), *state.friction);
+          friction_response(row, normal_force(row), state);
           if (system.keep_symmetric)
             lag_friction(row, state, balancing_force(row, residual, graph));
         }

@@ -96,6 +96,8 @@ namespace Touchstone
           continue;
         if (solved && row.friction && state.fully_constrained())
           augment_unconstrained(row, state);
+        if (solved)
+          judge_springs(row, state);
         if (solved && !row.friction && !by_gap(row))
           evaluate_force(row, state); // the force of the linear solve
         else

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The friction force of one row, and its derivatives, from the normal force and the slip: the trial
 // force of doc/theory.md 6.1, equation (16), the slip direction (17), and the coefficients of the
@@ -116,7 +117,7 @@ namespace Touchstone
 
 
 
-  // Uzawa's update t_k <- t_k - 100 c s_T, only along those tangents for which the graph refused a
+  // Uzawa's update t_k <- t_k - k s_T, only along those tangents for which the graph refused a
   // condition (doc/theory.md 6, "Stick where the slave node is not free"). Where nothing can move,
   // updates would go on for ever: there the force stays as it was when the step began.
   void
@@ -125,9 +126,31 @@ namespace Touchstone
     const SlipKinematics &k    = row.friction->kinematics;
     Tensor<1, dim>       &base = state.friction->base;
     for (const Tensor<1, dim> &tangent : state.friction->unconstrained)
-      base -= FrictionForce::unconstrained_stiffness(row.stiffness) * (k.slip * tangent) * tangent;
+      {
+        const double slip = k.slip * tangent;
+        base -= state.spring.of(row.stiffness) * slip * tangent;
+        state.spring.found(std::abs(slip));
+      }
     for (const Tensor<1, dim> &tangent : state.friction->held)
       base += ((k.start - base) * tangent) * tangent;
+  }
+
+
+
+  void
+  judge_springs(const ContactRow &row, RowState &state)
+  {
+    if (row.friction && state.status == ContactStatus::slip && state.friction->bounded &&
+        !state.friction->carried)
+      {
+        const Tensor<1, dim> &slip = row.friction->kinematics.slip,
+                             &last = state.friction->last_direction;
+        state.spring.found((slip - (slip * last) * last).norm());
+      }
+    constexpr double part_of_face = 1e-11;
+    state.spring.judge(
+      std::max(part_of_face * row.size,
+               64. * std::numeric_limits<double>::epsilon() * row.position.norm()));
   }
 
 
@@ -147,10 +170,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Bound of the stiffness kappa_T across the slip direction over E A / h: kappa_T grows like
-     * 1 / |s| where slip begins, and would spoil the condition of the system. */
-    constexpr double stiffest = 1e2;
-
     /** A trial force below this fraction of E A is round-off of the slip, and its direction is
      * arbitrary: no friction acts then. */
     constexpr double nothing = 1e-12;
@@ -171,12 +190,15 @@ namespace Touchstone
 
 
 
-    /** Derivatives of the force L trial / |trial| in slip, doc/theory.md 6.3. */
+    /** Derivatives of the force L trial / |trial| in slip, doc/theory.md 6.3.
+     * @param stiffest Bound of the stiffness kappa_T across the slip direction: kappa_T grows like
+     * 1 / |s| where slip begins, and would spoil the condition of the system. */
     void
     linearise_slip(const ContactRow     &row,
                    const double          lambda,
                    const FrictionLimit  &limit,
                    const Tensor<1, dim> &trial,
+                   const double          stiffest,
                    FrictionForce        &f)
     {
       const SlipKinematics &k         = row.friction->kinematics;
@@ -201,10 +223,9 @@ namespace Touchstone
       // Stiffness across the slip direction: kappa = L c / (|t_tr| - L), equation (17), for exact
       // and augmented friction; L alpha_t / |t_tr|, the tangent of radial return, for springs. The
       // comparison is written as a product, so that a vanishing denominator gives the bound.
-      const double         distance = f.carried ? size : std::max(f.excess, 0.);
-      const double         kappa    = limit.force < stiffest * row.stiffness / f.c * distance
-                                        ? limit.force * f.c / distance
-                                        : stiffest * row.stiffness;
+      const double distance         = f.carried ? size : std::max(f.excess, 0.);
+      f.bounded                     = !(limit.force * f.c < stiffest * distance);
+      const double         kappa    = f.bounded ? stiffest : limit.force * f.c / distance;
       const Tensor<2, dim> across   = k.tangential - outer_product(direction, direction);
       const bool           has_slip = f.c * k.slip.norm() > nothing * row.stiffness * row.size;
       f.tangent                     = kappa * across;
@@ -236,13 +257,11 @@ namespace Touchstone
 
 
   Tensor<1, dim>
-  friction_response(const ContactRow   &row,
-                    const ContactStatus status,
-                    const double        lambda,
-                    FrictionForce      &f)
+  friction_response(const ContactRow &row, const double lambda, RowState &state)
   {
+    FrictionForce        &f       = *state.friction;
     const SlipKinematics &k       = row.friction->kinematics;
-    const bool            slipped = status == ContactStatus::slip;
+    const bool            slipped = state.status == ContactStatus::slip;
     FrictionLimit         limit =
       row.friction->cone(lambda, slipped, slipped && !f.carried ? k.slip.norm() : 0.);
 
@@ -257,6 +276,7 @@ namespace Touchstone
     const double         size  = trial.norm();
     if (f.carried && slipped)
       limit = row.friction->cone_of_springs(lambda, size, f.c);
+    f.bounded   = false;
     f.limit     = limit.force;
     f.excess    = size - limit.force;
     f.direction = f.constant = f.d_lambda = f.d_area = f.d_spin = Tensor<1, dim>();
@@ -277,7 +297,7 @@ namespace Touchstone
     // row goes on to stick. A force on the cone would have the direction of what an iterative
     // solver leaves of a slip, and stay where no condition can replace it.
     const bool sticks_next = !f.carried && f.last_direction.norm() == 0. && f.excess < 0.;
-    linearise_slip(row, lambda, limit, trial, f);
+    linearise_slip(row, lambda, limit, trial, state.spring.of(row.stiffness), f);
     return sticks_next ? trial : limit.force * f.direction;
   }
 
@@ -290,7 +310,7 @@ namespace Touchstone
       return;
     state.force = state.lambda * row.normal;
     if (row.friction)
-      state.force += friction_response(row, state.status, state.lambda, *state.friction);
+      state.force += friction_response(row, state.lambda, state);
   }
 
 
@@ -304,7 +324,7 @@ namespace Touchstone
     if (!row.friction || !state.active() || row.tied)
       return;
     const double lagged = std::max(lambda, 0.);
-    friction_response(row, state.status, lagged, *state.friction);
+    friction_response(row, lagged, state);
     state.friction->constant += lagged * state.friction->d_lambda;
     state.friction->d_lambda = Tensor<1, dim>();
   }

@@ -140,9 +140,7 @@ namespace Touchstone
 
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void
-    begin_step()
-    {
-    }
+    begin_step();
 
     /**
      * @brief Bring the contact forces of the rows up to date before they are judged.

@@ -27,6 +27,7 @@ namespace Touchstone
     void
     begin_step() override
     {
+      Enforcement::begin_step();
       solved = false;
     }
 
@@ -103,6 +104,10 @@ namespace Touchstone
                 const RefusedConditions &refused,
                 ConstraintGraph         &graph,
                 LinearSystem            &system);
+
+    /** Tell the springs of rows what gaps they have left. */
+    void
+    find_gaps_of_springs();
 
     /** The forces of springs after a solve. Collective. */
     void

@@ -4,7 +4,6 @@
 #define touchstone_contact_enforcement_refused_conditions_h
 
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/contact/friction/friction_force.h>
 #include <touchstone/contact/row.h>
 
 #include <deal.II/base/index_set.h>
@@ -19,8 +18,9 @@ namespace Touchstone
    * are not free").
    *
    * Where the other nodes of the row can move they have to meet the condition: springs do that,
-   * whose force is augmented in each iteration, t <- t - 100 c g, until no gap is left. A spring
-   * takes no displacement for its own, so that conditions which say the same twice do no harm.
+   * whose force is augmented in each iteration, t <- t - k g, until no gap is left, see
+   * SpringStiffness. A spring takes no displacement for its own, so that conditions which say the
+   * same twice do no harm.
    */
   class RefusedConditions
   {
@@ -80,13 +80,6 @@ namespace Touchstone
     can_be_met(const ConstraintGraph  &graph,
                const dealii::IndexSet &owned,
                MPI_Comm                communicator) const;
-
-    /** @brief Force per length of the spring of a row. */
-    static double
-    stiffness(const ContactRow &row)
-    {
-      return FrictionForce::unconstrained_stiffness(row.stiffness);
-    }
 
   private:
     std::size_t        n_supports;

@@ -33,6 +33,7 @@ namespace Touchstone
     void
     begin_step() override
     {
+      Enforcement::begin_step();
       solved   = false;
       n_solves = 0;
     }

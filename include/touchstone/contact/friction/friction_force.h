@@ -62,6 +62,8 @@ namespace Touchstone
     Vec constant, d_lambda, d_area, d_spin, d_slip, slip_direction;
     /** Radius of the cone, force. */
     double limit = 0.;
+    /** The stiffness across the slip is its bound, for the slip is next to nothing. */
+    bool bounded = false;
     /** |t_tr| - L, force: a positive value violates stick, a negative one slip. */
     double excess = 0.;
     /** @} */
@@ -76,14 +78,7 @@ namespace Touchstone
       held.clear();
       tangent = last_tangent = Mat();
       limit = excess = 0.;
-    }
-
-    /** @brief Force per length of the springs along unconstrained tangents.
-     * @param stiffness ContactRow::stiffness. */
-    static double
-    unconstrained_stiffness(const double stiffness)
-    {
-      return 100. * stiffness;
+      bounded        = false;
     }
 
     /** @brief The one list of what checkpoints hold. */

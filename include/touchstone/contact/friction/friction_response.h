@@ -9,11 +9,16 @@ namespace Touchstone
 {
   /**
    * @brief The tangential force of an active row with friction under the normal force
-   * @p lambda, doc/theory.md 6.1: sets the response in @p f, from the formulation there, and
-   * returns the force.
+   * @p lambda, doc/theory.md 6.1: sets the response in the friction of @p state, from the
+   * formulation there, and returns the force.
    */
   dealii::Tensor<1, dim>
-  friction_response(const ContactRow &row, ContactStatus status, double lambda, FrictionForce &f);
+  friction_response(const ContactRow &row, double lambda, RowState &state);
+
+  /** @brief A linear solve has been evaluated: decide how stiff the springs of the row are in the
+   * next one, see SpringStiffness; comes before friction_response(). */
+  void
+  judge_springs(const ContactRow &row, RowState &state);
 
   /**
    * @brief Evaluate the contact force of an active row from its normal force, slip and
