@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Surfaces of facets: signed distances and normals by faces, edges and corners of a cube, gradient
-// of the projection, and surfaces that have no inside.
+// of the projection, and surfaces that have no inside; the walls of the inside of a cube.
 
-#include <touchstone/mesh/facet_surface.h>
+#include <touchstone/mesh/facet_walls.h>
 
 #include "mesh_common.h"
 
@@ -49,7 +49,7 @@ namespace
   {
     try
       {
-        make_facet_surface(facets, true);
+        std::make_shared<FacetSurface>(facets, true);
         std::cout << what << ": accepted FAILED\n";
       }
     catch (const std::runtime_error &error)
@@ -57,13 +57,52 @@ namespace
         std::cout << what << ": " << error.what() << '\n';
       }
   }
+
+  /** The walls of the inside of the cube: each has the smaller one of the distances from two
+   * opposite planes, which go on beyond the edges; and none can be touched from where another one
+   * is closest and no corner is near. */
+  void
+  walls_of_hole(const std::shared_ptr<const FacetSurface> &hole)
+  {
+    const auto walls     = make_walls(hole);
+    double     distances = 0., gradients = 0.;
+    int        touched = 0;
+    for (unsigned int i = 0; i < 1000; ++i)
+      {
+        const Point<3>        x(-0.1 + 0.1403 * (i % 10),
+                         -0.09 + 0.1305 * (i / 10 % 10),
+                         -0.08 + 0.1207 * (i / 100));
+        std::array<double, 3> found, wanted;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            wanted[d] = std::min(x[d], 1. - x[d]);
+            found[d]  = 1e9;
+          }
+        for (const auto &wall : walls)
+          {
+            touched += wall->can_be_touched(x);
+            const Tensor<1, 3> n = wall->normal(x);
+            for (unsigned int d = 0; d < 3; ++d)
+              if (std::abs(n[d]) > 0.999)
+                {
+                  found[d]  = (x - wall->project(x)) * n;
+                  gradients = std::max(gradients, std::abs(wall->projection_gradient(x)[d][d]));
+                }
+          }
+        for (unsigned int d = 0; d < 3; ++d)
+          distances = std::max(distances, std::abs(found[d] - wanted[d]));
+      }
+    std::cout << walls.size() << " walls, " << touched << " of 3000 touched, signed distance "
+              << small(distances) << ", gradient " << small(gradients) << '\n';
+  }
 } // namespace
 
 int
 main()
 {
-  const auto surface = make_facet_surface(cube(), true), hole = make_facet_surface(cube(), false);
-  double     distances = 0., normals = 0., gradients = 0., sides = 0.;
+  const auto surface = std::make_shared<FacetSurface>(cube(), true),
+             hole    = std::make_shared<FacetSurface>(cube(), false);
+  double distances = 0., normals = 0., gradients = 0., sides = 0.;
   for (unsigned int i = 0; i < 1000; ++i)
     {
       // No point is at the same distance from two places, or on a diagonal of a side.
@@ -91,6 +130,9 @@ main()
   for (const Point<3> &x : {Point<3>(0.3, 0.2, 1.), Point<3>(0.3, 0., 1.), Point<3>(1., 1., 1.)})
     std::cout << "on the surface at " << x << ": normal " << surface->normal(x) << '\n';
 
+  walls_of_hole(hole);
+  std::cout << "walls outside: " << make_walls(surface).size() << '\n';
+
   auto facets = cube();
   facets.pop_back();
   refuse("a facet is missing", facets);
@@ -111,6 +153,7 @@ main()
   facets = cube();
   facets.push_back({{Point<3>(0, 0, 0), Point<3>(1, 0, 0), Point<3>(1, 0, 0)}});
   std::cout << "a facet with two corners in one place: distance "
-            << make_facet_surface(facets, true)->project(Point<3>(0.5, 0.4, 3.)) << '\n';
+            << std::make_shared<FacetSurface>(facets, true)->project(Point<3>(0.5, 0.4, 3.))
+            << '\n';
   return 0;
 }

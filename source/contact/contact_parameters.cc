@@ -21,7 +21,7 @@ namespace Touchstone
   std::string
   ContactPairParameters::section() const
   {
-    return "Contact pair " + name;
+    return "Contact pair " + (part_of.empty() ? name : part_of);
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
-#include <touchstone/mesh/facet_surface.h>
+#include <touchstone/mesh/facet_walls.h>
 #include <touchstone/mesh/obstacle_shape.h>
 
 #include <boost/crc.hpp>
@@ -40,6 +40,13 @@ namespace Touchstone
                           side,
                           "The bodies are 'outside' or 'inside' of the surface.",
                           Patterns::Selection("outside|inside"));
+        prm.add_parameter("Walls",
+                          walls_are,
+                          "'whole': a node touches one place of the surface, the closest one. "
+                          "'separate': for dies with corners, where a node touches several walls. "
+                          "Walls that meet in sharp edges which look inwards are contact pairs of "
+                          "their own, with ' wall 1', ' wall 2', ... behind the name of the pair.",
+                          Patterns::Selection("whole|separate"));
       }
 
       void
@@ -75,6 +82,31 @@ namespace Touchstone
       std::shared_ptr<const AnalyticSurface>
       surface() const override
       {
+        return facet_surface();
+      }
+
+      std::vector<std::shared_ptr<const AnalyticSurface>>
+      walls() const override
+      {
+        return walls_are == "separate" ? make_walls(facet_surface())
+                                       : std::vector<std::shared_ptr<const AnalyticSurface>>();
+      }
+
+      bool
+      has_inner_edges() const override
+      {
+        return walls_are == "whole" && FacetWalls(*facet_surface()).n_walls() > 1;
+      }
+
+    private:
+      std::string file, side = "outside", walls_are = "whole", folder;
+      double      scale = 1.;
+      /** For messages; known since check(). */
+      mutable std::string where;
+
+      std::shared_ptr<const FacetSurface>
+      facet_surface() const
+      {
         const std::string         text = content();
         std::vector<FacetCorners> facets;
         std::uint32_t             n = 0;
@@ -90,19 +122,13 @@ namespace Touchstone
             x *= scale;
         try
           {
-            return make_facet_surface(facets, side == "outside");
+            return std::make_shared<const FacetSurface>(facets, side == "outside");
           }
         catch (const std::runtime_error &error)
           {
             refuse(error.what(), "repair the surface in a program for meshes, and write it again");
           }
       }
-
-    private:
-      std::string file, side = "outside", folder;
-      double      scale = 1.;
-      /** For messages; known since check(). */
-      mutable std::string where;
 
       [[noreturn]] void
       refuse(const std::string &problem, const std::string &remedy) const

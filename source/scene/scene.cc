@@ -97,6 +97,36 @@ namespace Touchstone
     const std::vector<std::string> idle = idle_entries(*this, defaults, complete);
     without_effect.insert(without_effect.end(), idle.begin(), idle.end());
     check();
+    separate_walls();
+  }
+
+
+
+  // A node in the corner of a die touches several walls: each has rows of its own. Last, for the
+  // handler knows the parameters of the pairs by their place.
+  void
+  Scene::separate_walls()
+  {
+    std::vector<ContactPairParameters> all;
+    for (const ContactPairParameters &pair : pairs)
+      {
+        const auto obstacle =
+          std::find_if(obstacles.begin(), obstacles.end(), [&](const ObstacleParameters &one) {
+            return one.name == pair.obstacle;
+          });
+        const std::size_t n =
+          obstacle == obstacles.end() || pair.tied() ? 0 : obstacle->shape.make()->walls().size();
+        if (n == 0)
+          all.push_back(pair);
+        for (unsigned int wall = 0; wall < n; ++wall)
+          {
+            all.push_back(pair);
+            all.back().part_of = pair.name;
+            all.back().wall    = wall;
+            all.back().name += " wall " + std::to_string(wall + 1);
+          }
+      }
+    pairs = all;
   }
 
 

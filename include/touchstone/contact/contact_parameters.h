@@ -92,7 +92,12 @@ namespace Touchstone
      * of the face. */
     double edge_tolerance = 0.01;
 
-    /** @brief "Contact pair NAME". */
+    /** The name in the scene of the pair that this one is a part of, for one of the walls of its
+     * obstacle (ObstacleShape::walls()), and the number of the wall; else empty. */
+    std::string  part_of;
+    unsigned int wall = 0;
+
+    /** @brief "Contact pair NAME", with the name in the scene. */
     std::string
     section() const;
 

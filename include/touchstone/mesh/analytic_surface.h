@@ -44,6 +44,14 @@ namespace Touchstone
      * material that the surface bounds. */
     virtual dealii::Tensor<1, 3>
     normal(const dealii::Point<3> &x) const = 0;
+
+    /** @brief Whether what is at @p x can touch it: of a wall, which is a part of a surface, not
+     * what is closer to another part; see FacetWalls. */
+    virtual bool
+    can_be_touched(const dealii::Point<3> & /*x*/) const
+    {
+      return true;
+    }
   };
 
   /** @brief The plane through @p point with outward @p normal. */

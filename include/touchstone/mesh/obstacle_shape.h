@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Touchstone
 {
@@ -21,6 +22,21 @@ namespace Touchstone
     /** @brief The surface at time 0; normals point to where the bodies are. */
     virtual std::shared_ptr<const AnalyticSurface>
     surface() const = 0;
+
+    /** @brief Parts of the surface that pairs are made of one by one, as a point can touch several
+     * at the same time, see FacetWalls; none: the surface as a whole. */
+    virtual std::vector<std::shared_ptr<const AnalyticSurface>>
+    walls() const
+    {
+      return {};
+    }
+
+    /** @brief The surface is taken as a whole, but has edges that look inwards. */
+    virtual bool
+    has_inner_edges() const
+    {
+      return false;
+    }
 
     /** @brief Folder of the scene file, for relative names of files; comes before surface(). */
     virtual void

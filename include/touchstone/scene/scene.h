@@ -117,6 +117,10 @@ namespace Touchstone
      */
     void
     resolve_phases(const SceneText &text);
+    /** Contact pairs for each wall of obstacles that consist of such, see ObstacleShape::walls().
+     */
+    void
+    separate_walls();
     /** Each section, then what goes across sections (combinations.h). */
     void
     check() const;

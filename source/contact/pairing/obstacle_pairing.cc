@@ -31,7 +31,9 @@ namespace Touchstone
         : Pairing(input)
       {
         const ObstacleParameters &o     = *input.obstacle;
-        surface                         = o.shape.make()->surface();
+        surface                         = input.parameters->part_of.empty()
+                                            ? o.shape.make()->surface()
+                                            : o.shape.make()->walls()[input.parameters->wall];
         tip                             = dynamic_cast<const SharpTip *>(surface.get());
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
@@ -62,7 +64,7 @@ namespace Touchstone
             row.normal      = there.normal;
             row.gap_vector  = there.gap_vector;
             row.gap         = row.gap_vector * row.normal;
-            row.has_partner = true;
+            row.has_partner = surface->can_be_touched(now.back(at));
           }
       }
 
@@ -74,7 +76,7 @@ namespace Touchstone
           {
             rows[k].derivative.reset();
             // Open rows contribute neither force nor condition.
-            if (!rows[k].was_active)
+            if (!rows[k].was_active || !rows[k].has_partner)
               continue;
             if (before_tip(k, motion(time)))
               rows[k].derivative = derivative_at_tip(rows[k].slave);
@@ -193,6 +195,9 @@ namespace Touchstone
       contact(const Point<dim> &x, const RigidMotion &now) const
       {
         const Point<dim> y = now.back(x);
+        // A wall that cannot be touched there is as far away as nothing ever is.
+        if (const double far = 1e6 * input.slave->largest_face(); !surface->can_be_touched(y))
+          return {now.direction(surface->normal(y)), far * now.direction(surface->normal(y))};
         return {now.direction(surface->normal(y)), now.direction(y - surface->project(y))};
       }
 
