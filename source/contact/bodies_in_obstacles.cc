@@ -6,6 +6,7 @@
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/tolerances.h>
+#include <touchstone/contact/unnamed_nodes.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -22,15 +23,16 @@ namespace Touchstone
   namespace
   {
     /** The boundaries of the slave body that any pair of it with the same obstacle names. */
-    std::set<types::boundary_id>
+    NamedBoundaries
     named_boundaries(const Contact &contact, const ContactPair &pair)
     {
-      std::set<types::boundary_id> result;
+      NamedBoundaries result;
       for (unsigned int p = 0; p < contact.n_pairs(); ++p)
         if (const ContactPair &other = contact.pair(p);
             other.parameters().obstacle == pair.parameters().obstacle &&
             other.slave_body() == pair.slave_body())
-          result.insert(other.slave().boundaries().begin(), other.slave().boundaries().end());
+          for (const types::boundary_id id : other.slave().boundaries())
+            result.emplace(pair.slave_body(), id);
       return result;
     }
 
@@ -67,6 +69,15 @@ namespace Touchstone
       const auto               named = named_boundaries(contact, pair);
       const Vector             zero  = contact.with_ghosts(contact.solid_model().zero_vector());
       std::vector<PointInside> result;
+      const auto add = [&](const Point<dim> &now, const Point<dim> &start, const double least) {
+        // What has been so from the start, or half as deep, is as the scene has it.
+        if (const double depth = -pair.pairing().distance(now, contact.time());
+            depth > least && -pair.pairing().distance(start, 0.) < 0.5 * depth)
+          result.push_back({depth, now});
+      };
+      for (const UnnamedNode &node : unnamed_nodes(contact, named, contact.ghosted_displacement()))
+        if (node.body == pair.slave_body())
+          add(node.now, node.start, Tolerances::node_in_obstacle * node.size);
       for (const auto &cell : contact.solid_model().dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && cell->material_id() == pair.slave_body() &&
             cell->at_boundary())
@@ -77,14 +88,12 @@ namespace Touchstone
                        before = deformed_vertices(cell, zero);
             for (const unsigned int f : cell->face_indices())
               {
-                if (!cell->at_boundary(f) || named.count(cell->face(f)->boundary_id()) > 0)
+                if (!cell->at_boundary(f) ||
+                    named.count({cell->material_id(), cell->face(f)->boundary_id()}) > 0)
                   continue;
                 const auto x = points_of_face(now, f), start = points_of_face(before, f);
                 for (unsigned int k = 0; k < x.size(); ++k)
-                  // What has been so from the start, or half as deep, is as the scene has it.
-                  if (const double depth = -pair.pairing().distance(x[k], contact.time());
-                      depth > least && -pair.pairing().distance(start[k], 0.) < 0.5 * depth)
-                    result.push_back({depth, x[k]});
+                  add(x[k], start[k], least);
               }
           }
       return result;

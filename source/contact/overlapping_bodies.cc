@@ -319,18 +319,4 @@ namespace Touchstone
         result.push_back(all[k]);
     return result;
   }
-
-
-
-  std::vector<std::string>
-  overlapping_bodies(const Contact &contact, const Vector &u)
-  {
-    std::set<unsigned int> bodies;
-    for (unsigned int b = 0; b < contact.solid_model().bodies.size(); ++b)
-      bodies.insert(b);
-    std::vector<std::string> result;
-    for (const BodyOverlap &overlap : overlapping_bodies(contact, u, bodies))
-      result.push_back(overlap.text(contact.solid_model()));
-    return result;
-  }
 } // namespace Touchstone

@@ -70,6 +70,17 @@ one = run("top_left_two_ranks", tests / "held_by_contact.prm", {SLAVES: "top, le
 check("reaches into the obstacle 'ground'" in one.log, f"two ranks: {one.log[-400:]}")
 upright = run("upright", tests / "held_by_contact.prm", {SLAVES: "bottom"})
 check(not overlaps(upright), f"a block on the ground: {overlaps(upright)}")
+# Only the sides of a block are named: it stands on their lower edges, and its lower side sinks in between them by a fifth
+# of a cell; before, nothing was said. On a body as on an obstacle, and on two ranks.
+SIDES = {SLAVES: "left, right, front, back", "Body block/Boundary top/Pressure": "50 * t"}
+for ranks in 1, 2:
+    sides = run(f"sides_{ranks}", tests / "held_by_contact.prm", SIDES, ranks)
+    check(len(overlaps(sides)) == 1 and "reaches into the obstacle 'ground', by 0.053" in overlaps(sides)[0],
+          f"only the sides are named: {sides.summary['warnings']}")
+for ranks in 1, 2:
+    sides = run(f"sides_on_body_{ranks}", tests / "held_by_a_body.prm", SIDES, ranks)
+    check(any("with a face that no contact pair names" in text for text in overlaps(sides)),
+          f"only the sides are named, on a body: {sides.summary['warnings']}")
 # Corners of the master within slave faces, whose nodes are open by 0.08: the report before the first step tells of them.
 for ranks in 1, 2:
     start = run(f"between_nodes_{ranks}", checks / "tube_across_trough.prm", {}, ranks)

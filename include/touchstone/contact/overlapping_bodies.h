@@ -70,7 +70,9 @@ namespace Touchstone
                    std::vector<PointOfBody>      points,
                    double                        least);
 
-  /** @brief The same of all bodies, in words. Collective. */
+  /** @brief The same of all bodies, in words; nodes on boundaries that no pair names
+   * count from a twentieth of the thickness on, unless they were half as deep at the start.
+   * Collective. */
   std::vector<std::string>
   overlapping_bodies(const Contact &contact, const Vector &u);
 } // namespace Touchstone

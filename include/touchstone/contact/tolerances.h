@@ -269,6 +269,10 @@ namespace Touchstone
      * from which it lies in a cell at all. */
     constexpr double deep_in_body = 0.25, within_cell = 1e-3;
 
+    /** The same of nodes that lie on no boundary which a pair names, in cells and in obstacles:
+     * these are no points of facets, nor are they kept away on an average only. */
+    constexpr double unnamed_in_body = 0.05, node_in_obstacle = 0.02;
+
     /** Distance of edges that come close, by the shorter one. */
     constexpr double near_edge = 0.1;
 
