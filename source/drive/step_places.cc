@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/step_problem.h>
+#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
@@ -14,6 +15,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -160,6 +162,45 @@ namespace Touchstone
                       "xyz"[most - of_body]);
         text += "; body '" + scene.bodies[b].name + one;
       }
+    return text;
+  }
+
+
+
+  std::string
+  StepProblem::pairs_without_partner() const
+  {
+    std::vector<unsigned int> found(contact.n_pairs(), 0);
+    for (const ContactRow &row : contact.rows())
+      found[row.pair] += row.has_partner;
+    Utilities::MPI::sum(found, solid.communicator, found);
+    std::string text;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (found[p] == 0)
+        text += "; no master face within reach of any slave node of contact pair '" +
+                scene.pairs[p].name + "'";
+    return text;
+  }
+
+
+
+  std::string
+  StepProblem::inner_corners() const
+  {
+    std::vector<unsigned int> active(contact.n_pairs(), 0);
+    for (const ContactRow &row : contact.rows())
+      active[row.pair] += contact.state(row).active();
+    Utilities::MPI::sum(active, solid.communicator, active);
+    std::set<std::string> found;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const ObstacleParameters *const obstacle = contact.pair(p).obstacle();
+          obstacle != nullptr && active[p] > 0 && obstacle->shape.make()->has_inner_edges())
+        found.insert(obstacle->name);
+    std::string text;
+    for (const std::string &name : found)
+      text += "; obstacle '" + name +
+              "' has sharp edges that look inwards, and a node in such a corner meets one of its "
+              "walls only: set its 'Walls' to 'separate'";
     return text;
   }
 

@@ -320,7 +320,7 @@ namespace Touchstone
     if (!system->stabilised().empty())
       suspicion =
         "; held by contact alone, perhaps against no resistance: " + system->stabilised() +
-        motion_of_loose_bodies();
+        motion_of_loose_bodies() + pairs_without_partner();
     if (!system->unsupported_parts().empty())
       suspicion += "; not connected with the rest of the body and held by contact alone: " +
                    system->unsupported_parts() + "; make each such part a body of its own";
@@ -331,7 +331,7 @@ namespace Touchstone
     if (const std::string pairs = pairs_with_points(contact); !pairs.empty())
       suspicion += "; contact of " + pairs +
                    " passes between slave nodes that touch nothing: refine the slave surface";
-    suspicion += friction_without_pressure() + stick_of_held_nodes();
+    suspicion += inner_corners() + friction_without_pressure() + stick_of_held_nodes();
     return {worst_place(), suspicion};
   }
 

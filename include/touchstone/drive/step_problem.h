@@ -235,6 +235,14 @@ namespace Touchstone
      * contact alone holds. Collective. */
     std::string
     motion_of_loose_bodies() const;
+    /** The pairs none of whose slave nodes faces a master, in words; empty if there is none.
+     * Collective. */
+    std::string
+    pairs_without_partner() const;
+    /** The obstacles of pairs in contact in whose corners nodes may touch several walls, in words.
+     * Collective. */
+    std::string
+    inner_corners() const;
     /** Whether rows that change may have no solution, as their friction does not vanish with the
      * pressure; in words, empty if not. Collective. */
     std::string
