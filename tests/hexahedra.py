@@ -65,14 +65,23 @@ class Mesh:
                  if not removed(tuple(sum(self.points[i][d] for i in cell) / 8 for d in range(3)))]
         return Mesh(self.points, cells).joined(Mesh())
 
-    def written(self, path):
-        """Write a VTK file."""
+    def written(self, path, boundaries=None):
+        """Write a VTK file.
+
+        @param boundaries: which points are on each of the boundaries with these names, as functions of points
+        ('Boundary arrays' of the scene).
+        """
         lines = ["# vtk DataFile Version 3.0", "hexahedra", "ASCII", "DATASET UNSTRUCTURED_GRID",
                  f"POINTS {len(self.points)} double"]
         lines += [" ".join(f"{p:.17g}" for p in point) for point in self.points]
         lines += [f"CELLS {len(self.cells)} {9 * len(self.cells)}"]
         lines += ["8 " + " ".join(map(str, cell)) for cell in self.cells]
         lines += [f"CELL_TYPES {len(self.cells)}"] + ["12"] * len(self.cells)
+        if boundaries:
+            lines += [f"POINT_DATA {len(self.points)}"]
+        for name, holds in (boundaries or {}).items():
+            lines += [f"SCALARS {name} int", "LOOKUP_TABLE default"]
+            lines += [str(int(holds(point))) for point in self.points]
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
