@@ -52,6 +52,9 @@ plate pressed over the edge of a pad|checks/pressed_over_edge|checks/partial_cov
 sliding over an edge|checks/sliding_edge|checks/partial_cover
 90 % of the slave surface faces nothing|checks/slave_larger_than_master|checks/partial_cover
 ball that touches two plates, or nearly|checks/ball_between_plates|checks/partial_cover
+boxes on their edges, crossed|crossed_edges|golden, checks/edge_contact
+edges of turned cubes that cross|edge_across_edge|golden, checks/edge_contact
+a vertex inside a slave face|vertex_in_slave_face|golden, checks/edge_contact
 overlap larger than a cell|large_overlap|golden
 rings that overlap by four cells|deep_overlap|golden
 gap closed under load|gap_closed|golden
