@@ -441,6 +441,7 @@ namespace
     print_damaged("ring20.vtu", "offsets", "offset");
     print_damaged("ring20.vtu", "25 25", "25.5 25");
     print_damaged("ring20.vtu", "20 40", "20 nan");
+    print_damaged("ring20.vtu", "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"");
     print_damaged("ring20.vtu", "</Cells>", "");
     print_damaged("ring20.vtu", "type=\"Int64\"", "type=\"Int6\"");
     print_damaged("ring20.vtu", "</Piece>", "</Piece><Piece NumberOfPoints=\"0\">");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/drive/step_problem.h>
-#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
@@ -14,13 +13,11 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <map>
-#include <set>
 #include <tuple>
 #include <vector>
 
 // Where a body with a nonlinear law is compressed most, how bodies move that only contact holds,
-// and friction and ties that leave rows no solution, for the messages of a step that fails.
+// for the messages of a step that fails.
 namespace Touchstone
 {
   using namespace dealii;
@@ -163,100 +160,5 @@ namespace Touchstone
         text += "; body '" + scene.bodies[b].name + one;
       }
     return text;
-  }
-
-
-
-  std::string
-  StepProblem::pairs_without_partner() const
-  {
-    std::vector<unsigned int> found(contact.n_pairs(), 0);
-    for (const ContactRow &row : contact.rows())
-      found[row.pair] += row.has_partner;
-    Utilities::MPI::sum(found, solid.communicator, found);
-    std::string text;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (found[p] == 0)
-        text += "; no master face within reach of any slave node of contact pair '" +
-                scene.pairs[p].name + "'";
-    return text;
-  }
-
-
-
-  std::string
-  StepProblem::inner_corners() const
-  {
-    std::vector<unsigned int> active(contact.n_pairs(), 0);
-    for (const ContactRow &row : contact.rows())
-      active[row.pair] += contact.state(row).active();
-    Utilities::MPI::sum(active, solid.communicator, active);
-    std::set<std::string> found;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ObstacleParameters *const obstacle = contact.pair(p).obstacle();
-          obstacle != nullptr && active[p] > 0 && obstacle->shape.make()->has_inner_edges())
-        found.insert(obstacle->name);
-    std::string text;
-    for (const std::string &name : found)
-      text += "; obstacle '" + name +
-              "' has sharp edges that look inwards, and a node in such a corner meets one of its "
-              "walls only: set its 'Walls' to 'separate'";
-    return text;
-  }
-
-
-
-  std::string
-  StepProblem::friction_without_pressure() const
-  {
-    // A row that opens as it is dragged by its friction, and closes as soon as that ceases, has no
-    // solution unless the friction vanishes with the pressure.
-    int found = 0;
-    for (const auto &changed : changed_rows)
-      for (const ContactRow &row : contact.rows())
-        if (row.friction && row.pair == changed[dim] && row.friction->cone(0., false).force > 0.)
-          found = 1;
-    if (Utilities::MPI::max(found, solid.communicator) == 0)
-      return "";
-    return "; friction that does not vanish with the pressure may leave a row no solution: it opens "
-           "with its friction and closes without ('Friction/Largest coefficient' of 'tresca' bounds it "
-           "by the pressure)";
-  }
-
-
-
-  std::string
-  StepProblem::stick_of_held_nodes() const
-  {
-    // Springs make the master follow (doc/theory.md 6, "Stick where the slave node is not free"), a
-    // hundredth of the slip being left by each iteration unless it has fewer nodes than the slave.
-    std::vector<int> found(contact.n_pairs(), 0);
-    for (const ContactRow &row : contact.rows())
-      if (row.friction && contact.state(row).status == ContactStatus::stick)
-        for (const Tensor<1, dim> &tangent : contact.state(row).friction->unconstrained)
-          if (std::abs(row.friction->kinematics.slip * tangent) >
-              scene.newton.gap_tolerance * row.size)
-            found[row.pair] = 1;
-    // The same of tied nodes, whose conditions contradict each other then.
-    std::map<Index, std::vector<Tensor<1, dim>>> prescribed;
-    for (const auto &one : boundary_conditions.displacements(time))
-      prescribed[one.node].push_back(one.direction);
-    for (const ContactRow &row : contact.rows())
-      if (const auto held = prescribed.find(row.slave); row.tied && contact.state(row).active() &&
-                                                        !contact.state(row).dropped() &&
-                                                        held != prescribed.end())
-        for (const Tensor<1, dim> &direction : held->second)
-          if (std::abs(row.gap_vector * direction) > scene.newton.gap_tolerance * row.size)
-            found[row.pair] = 1;
-    Utilities::MPI::max(found, solid.communicator, found);
-    std::string names;
-    for (unsigned int p = 0; p < found.size(); ++p)
-      if (found[p] == 1)
-        names += (names.empty() ? "'" : ", '") + contact.pair(p).parameters().name + "'";
-    return names.empty() ? names
-                         : "; supports hold slave nodes of " + names +
-                             " that stick or are tied, and the master may have too few nodes to "
-                             "follow all of them: exchange slave and master, or refine the master "
-                             "surface";
   }
 } // namespace Touchstone

@@ -331,7 +331,8 @@ namespace Touchstone
     if (const std::string pairs = pairs_with_points(contact); !pairs.empty())
       suspicion += "; contact of " + pairs +
                    " passes between slave nodes that touch nothing: refine the slave surface";
-    suspicion += inner_corners() + friction_without_pressure() + stick_of_held_nodes();
+    suspicion +=
+      far_from_origin() + inner_corners() + friction_without_pressure() + stick_of_held_nodes();
     return {worst_place(), suspicion};
   }
 

@@ -263,6 +263,8 @@ namespace Touchstone
     if ((section == "PointData" || section == "CellData") &&
         ((!components.empty() && components != "1") || type == "String"))
       return;
+    if (section == "Points" && !components.empty() && components != "3")
+      throw MeshFileError("The points of the file have '" + components + "' coordinates each.");
     std::vector<double> numbers;
     if (format == "ascii")
       {

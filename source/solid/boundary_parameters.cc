@@ -104,6 +104,18 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The stiffness of springs in the scene; empty for none. */
+    std::string
+    spring_text(const double stiffness)
+    {
+      return stiffness == 0. ? "" : Patterns::Tools::to_string(stiffness);
+    }
+  } // namespace
+
+
+
   void
   BoundaryParameters::check(const std::string &section) const
   {
@@ -163,11 +175,17 @@ namespace Touchstone
                        pressure_follows.word(),
                        "there is no pressure on this boundary",
                        "remove the key, or set 'Pressure'");
-    if (!pressure.empty() && all_moved)
-      throw InputError(section,
-                       "Pressure",
-                       pressure,
-                       "has no effect where all three displacements are prescribed",
-                       "remove the pressure or one of the displacements");
+    if (all_moved)
+      for (const auto &[key, value] :
+           {std::make_pair(std::string("Pressure"), pressure),
+            std::make_pair(std::string("Spring stiffness normal"), spring_text(spring_normal)),
+            std::make_pair(std::string("Spring stiffness tangential"),
+                           spring_text(spring_tangential))})
+        if (!value.empty())
+          throw InputError(section,
+                           key,
+                           value,
+                           "has no effect where all three displacements are prescribed",
+                           "remove the key or one of the displacements");
   }
 } // namespace Touchstone

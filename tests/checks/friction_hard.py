@@ -32,6 +32,14 @@ for pairing in "pointwise", "averaged":
         force = run(f"driven_stiff_{pairing}_{enforcement}", checks / "friction_driven_nodes.prm",
                     {**settings, **stiff}).force("slope")[0]
         below(f"driven, stiff, {pairing}, {enforcement}, force {force} differs from -9.6", relative(force, -9.6), 1e-8)
+# A block at rest on a slope that only the coefficient of rest can hold. Before, its nodes began in slip and never came to
+# know that coefficient (exit code 2).
+for name, settings in ("exact", {}), ("regularised", {"Contact/Friction": "regularised"}), *(
+        (e, {ENFORCEMENT: e}) for e in ENFORCEMENTS):
+    slope = run(f"slope_{name}", checks / "block_on_slope.prm", settings)
+    check(slope.column("contact: slip nodes")[-1] == 0, f"{slope}: nodes slide")
+    below(f"{slope}, friction holds the weight", relative(slope.force("contact")[0], -0.3420201433256687 / 2), 1e-8)
+run("slope_too_steep", checks / "block_on_slope.prm", {"Contact pair contact/Friction/Static coefficient": 0.36}, fails=True)
 # Far from the origin, where positions have a round-off of 1e-6 of the slip.
 far = "1e5, 2e5, -1e5"
 below("driven, far away, force", relative(run(

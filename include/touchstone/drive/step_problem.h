@@ -239,6 +239,10 @@ namespace Touchstone
      * Collective. */
     std::string
     pairs_without_partner() const;
+    /** What positions far from the origin leave of gaps, in words; empty if that is enough.
+     * Collective. */
+    std::string
+    far_from_origin() const;
     /** The obstacles of pairs in contact in whose corners nodes may touch several walls, in words.
      * Collective. */
     std::string

@@ -6,6 +6,7 @@
 #include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/contact/enforcement/undetermined_stick.h>
+#include <touchstone/contact/friction/friction.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
@@ -47,6 +48,23 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Whether a node at rest bears more friction than one that slides: if rows of a body at rest
+     * began in slip, they would never know. */
+    bool
+    holds_more_at_rest(const ContactRow &row)
+    {
+      if (!row.friction)
+        return false;
+      const double force = row.stiffness * row.size;
+      return row.friction->cone(force, /*sliding=*/false).force >
+             row.friction->cone(force, /*sliding=*/true).force;
+    }
+  } // namespace
+
+
+
   void
   Enforcement::begin_step()
   {
@@ -73,7 +91,7 @@ namespace Touchstone
         // A surface that just touches starts in contact: otherwise a body that only rests on
         // another would have no support in the first iteration.
         else if (row.gap < Tolerances::touches_at_start * row.size)
-          status = ContactStatus::slip;
+          status = holds_more_at_rest(row) ? ContactStatus::stick : ContactStatus::slip;
       }
   }
 

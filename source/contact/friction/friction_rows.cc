@@ -7,6 +7,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+#include <algorithm>
+
 // The history of friction and the slip of all rows of this rank (doc/theory.md 6.2).
 // Friction::update() makes the slip of each Newton iterate from the history and the positions
 // alone; only end_step(), called once when a step has converged, writes the history, so that a step
@@ -110,7 +112,10 @@ namespace Touchstone
      * continues in the direction of this step, doc/theory.md 6.2, equation (19): without contact
      * there is no friction, so this displacement is no slip. Zero for a node that approaches at
      * less than 45 degrees to the surface, which will slide, and for one without a step of
-     * approach, which is taken to come along the normal. In components of the frame.
+     * approach, which is taken to come along the normal. A step in which nothing moves is none: its
+     * approach is what an iteration has left, in a direction that round-off chooses. So the
+     * prediction counts less, and at last not, for a node that would take many such steps. In
+     * components of the frame.
      */
     std::array<double, 2>
     precontact_offset(const ContactRow &row, const bool is_active, const FrictionHistory &history)
@@ -125,8 +130,10 @@ namespace Touchstone
       const Tensor<1, dim> moved = k.slip + k.carry(history.precontact_offset);
       if (moved.norm() > closing)
         return {};
-      const double steps = row.gap / closing;
-      return {{steps * (moved * k.frame[0]), steps * (moved * k.frame[1])}};
+      constexpr double few   = 5.;
+      const double     steps = row.gap / closing;
+      const double     part  = std::clamp(2. - steps / few, 0., 1.) * steps;
+      return {{part * (moved * k.frame[0]), part * (moved * k.frame[1])}};
     }
   } // namespace
 
