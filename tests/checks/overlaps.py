@@ -55,9 +55,12 @@ check(overlaps(two) == found, f"two ranks tell something else: {overlaps(two)}")
 dynamic = run("explicit", "overlap.prm", {"Time integration/Scheme": "central_differences"})
 check(len(overlaps(dynamic)) == len(found), f"explicit: {overlaps(dynamic)}")
 
-# A tenth of a cell deep: within what coarse surfaces that touch may overlap.
-near = run("near", "overlap.prm", {"Load stepping/End time": 0.2})
+# A twenty-fifth of a cell deep, and a tenth of it: what no pair names is told of from a twentieth on.
+near = run("near", "overlap.prm", {"Load stepping/End time": 0.08})
 check(not overlaps(near), f"a shallow overlap is told of: {overlaps(near)}")
+deeper = run("deeper", "overlap.prm", {"Load stepping/End time": 0.2})
+check(any("body 'block' reaches into body 'base'" in text and "no contact pair names" in text for text in overlaps(deeper)),
+      f"an overlap of faces that no pair names: {overlaps(deeper)}")
 # A block that turns over on the ground: only one of the boundaries that are named faces it, and the block passes
 # through it beside the others. Before, nothing was said. It has turned too far for its law, too.
 SLAVES = "Contact pair contact/Slave boundaries"
