@@ -25,6 +25,10 @@ class Formula:
         text = self.replaced({a: f"({a} / {number(length)})" for a in AXES}).text
         return Formula(self.factor * value, self.text if length == 1 else text)
 
+    def warped(self, time):
+        """With another time for t."""
+        return Formula(self.factor, re.sub(r"\bt\b", time, self.text))
+
     def at(self, t):
         """Of a formula of t alone."""
         functions = {"min": min, "max": max, "abs": abs, "sin": math.sin, "cos": math.cos,
@@ -190,6 +194,24 @@ class Scene:
         clearance = None if self.clearance is None else self.clearance * length
         return dataclasses.replace(self, bodies=bodies, obstacles=obstacles, pairs=pairs,
                                    clearance=clearance, length=self.length * length, stress=self.stress * stress)
+
+    def paused(self):
+        """With a step more in the middle, in which nothing moves.
+        @throws NotExpressible"""
+        if self.steps < 2 or self.ends:
+            raise NotExpressible("there are no steps between which to rest")
+        step, before = self.end_time / self.steps, self.steps // 2
+        low, middle, high = (number((before + part) * step) for part in (0, 0.5, 1))
+        time = f"(min(t, {low}) + 2 * max(0, min(t, {high}) - {middle}) + max(0, t - {high}))"
+
+        def vector(v):
+            return tuple(f and f.warped(time) for f in v)
+
+        bodies = tuple(dataclasses.replace(b, conditions=tuple(
+            (n, Condition(vector(c.displacement), vector(c.traction))) for n, c in b.conditions)) for b in self.bodies)
+        obstacles = tuple(dataclasses.replace(o, motion=vector(o.motion)) for o in self.obstacles)
+        ends = sorted([(k + 1) * step for k in range(self.steps)] + [(before + 0.5) * step])
+        return dataclasses.replace(self, bodies=bodies, obstacles=obstacles, ends=tuple(ends))
 
     def with_sides(self):
         """Pairs with all boundaries beside those that touch, as users name them to be safe.

@@ -112,28 +112,33 @@ namespace Touchstone
      * continues in the direction of this step, doc/theory.md 6.2, equation (19): without contact
      * there is no friction, so this displacement is no slip. Zero for a node that approaches at
      * less than 45 degrees to the surface, which will slide, and for one without a step of
-     * approach, which is taken to come along the normal. A step in which nothing moves is none: its
-     * approach is what an iteration has left, in a direction that round-off chooses. So the
-     * prediction counts less, and at last not, for a node that would take many such steps. In
-     * components of the frame.
+     * approach, which is taken to come along the normal. A step in which next to nothing moves is
+     * none: its approach is what an iteration has left, in a direction that round-off chooses. What
+     * was predicted before counts then. In components of the frame.
      */
     std::array<double, 2>
     precontact_offset(const ContactRow &row, const bool is_active, const FrictionHistory &history)
     {
+      // Nothing to predict without a committed gap, or in contact.
+      if (!history.has_anchor || is_active || row.gap <= 0.)
+        return {};
       const SlipKinematics &k       = row.friction->kinematics;
       const double          closing = history.anchor_gap - row.gap;
-      // Nothing to predict without a committed gap, in contact, or while moving apart.
-      if (!history.has_anchor || is_active || row.gap <= 0. || closing <= 0.)
-        return {};
       // The slip does not contain the offset that the last step predicted; the displacement along
-      // the surface does. With dg = closing, equation (19) extrapolates it by the factor g / dg.
+      // the surface does.
       const Tensor<1, dim> moved = k.slip + k.carry(history.precontact_offset);
-      if (moved.norm() > closing)
-        return {};
-      constexpr double few   = 5.;
-      const double     steps = row.gap / closing;
-      const double     part  = std::clamp(2. - steps / few, 0., 1.) * steps;
-      return {{part * (moved * k.frame[0]), part * (moved * k.frame[1])}};
+      // How much a motion tells that is small beside the gap: all of it, or nothing.
+      constexpr double much = 0.2, little = 0.1;
+      const double     motion = std::max(std::abs(closing), moved.norm()) / row.gap;
+      const double     known  = std::clamp((motion - little) / (much - little), 0., 1.);
+      // With dg = closing, equation (19) extrapolates by the factor g / dg.
+      const bool            lands = closing > 0. && moved.norm() <= closing;
+      const double          steps = lands ? row.gap / closing : 0.;
+      std::array<double, 2> result;
+      for (unsigned int a = 0; a < 2; ++a)
+        result[a] =
+          known * steps * (moved * k.frame[a]) + (1. - known) * history.precontact_offset[a];
+      return result;
     }
   } // namespace
 
