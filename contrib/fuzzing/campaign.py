@@ -92,15 +92,19 @@ def with_times_of(scene, result):
                                                  if row["time"] > 0))
 
 
+def made_steps(result):
+    """The number of steps of a run."""
+    return sum(row["time"] > 0 for row in result.rows)
+
+
 def compare(scene, default, own, result, variant, program, folder, time_limit):
     """Findings from a run with default settings and one of a variant. Where friction or
     plasticity makes the result depend on the steps and a run has cut some of them, each is run
     with the steps of the other; if both cut these, too, runs with small steps decide."""
     found = list(agreement.compare(scene, default, own, result, variant))
     if variant.change == "paused":
-        # Steps that are cut take another path.
-        uncut = len(default.rows) == scene.steps + 1 and len(result.rows) == scene.steps + 2
-        return found if uncut or not agreement.path_dependent(scene) else []
+        # Steps that are cut or divided take another path, and end at other times.
+        return found if made_steps(default) == scene.steps and made_steps(result) == scene.steps + 1 else []
     if not found or not agreement.path_dependent(scene) or agreement.same_times(default, result):
         return found
     if variant.exact:
