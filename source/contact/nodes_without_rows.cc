@@ -207,7 +207,7 @@ namespace Touchstone
                                 double(without_rows.held[p].count(node))},
                                {},
                                {}});
-        archive.put_nodes("nodes without rows of " + pairs[p]->parameters().section(), records);
+        archive.put_nodes("nodes without rows of " + pairs[p]->parameters().unique_name(), records);
       }
   }
 
@@ -224,7 +224,7 @@ namespace Touchstone
     NodesWithoutRows nodes(pairs.size());
     for (std::size_t p = 0; p < pairs.size(); ++p)
       {
-        const std::string name = "nodes without rows of " + pairs[p]->parameters().section();
+        const std::string name = "nodes without rows of " + pairs[p]->parameters().unique_name();
         // Checkpoints of earlier versions have none.
         if (!archive.has(name))
           return;

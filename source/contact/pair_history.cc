@@ -80,7 +80,7 @@ namespace Touchstone
     // Sorted, so that the checkpoint does not depend on the order in which entries were made.
     KeyPairs faces(memory.of_faces.begin(), memory.of_faces.end());
     std::sort(faces.begin(), faces.end());
-    archive.put_keys(input.parameters.section(), faces);
+    archive.put_keys(input.parameters.unique_name(), faces);
     if (points_meet)
       save_points(archive);
   }
@@ -101,7 +101,7 @@ namespace Touchstone
     std::string
     name_of_points(const ContactPairParameters &parameters)
     {
-      return "points in faces of " + parameters.section();
+      return "points in faces of " + parameters.unique_name();
     }
   } // namespace
 
@@ -176,7 +176,7 @@ namespace Touchstone
     // Only edges and vertices have keys beside those of the nodes.
     if (!edges_meet)
       memory.of_rows.resize(slave_surface->owned_nodes().size());
-    const KeyPairs &faces = archive.keys(input.parameters.section());
+    const KeyPairs &faces = archive.keys(input.parameters.unique_name());
     memory.of_faces.insert(faces.begin(), faces.end());
     committed = present;
     if (points_meet)

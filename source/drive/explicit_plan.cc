@@ -59,6 +59,23 @@ namespace Touchstone
 
 
 
+  // Damping in proportion to the mass is stable in cycles of any length, but what is left of a
+  // velocity, (1 - a h/2)/(1 + a h/2), is exp(-a h) for short ones alone: to 1 % of a cycle here.
+  void
+  ExplicitStep::shorten_for_damping()
+  {
+    constexpr double most = 0.5;
+    double           a    = 0.;
+    for (const BodyParameters &body : scene.bodies)
+      a = std::max(a, body.material.rayleigh_mass);
+    if (a * counts.stable_step <= most)
+      return;
+    counts.stable_step = most / a;
+    counts.cell        = "the damping of 'Rayleigh mass'";
+  }
+
+
+
   ExplicitStep::Plan
   ExplicitStep::plan_cycles(const double t)
   {
@@ -75,6 +92,7 @@ namespace Touchstone
     if (impulses)
       counts.stable_step = with_springs(counts.stable_step,
                                         impulses->square_frequency(now.u, now.time, stable.length));
+    shorten_for_damping();
     const double cycle = parameters.courant_factor * counts.stable_step;
     // Equal cycles up to the end of the interval: a shorter last one would spoil what is exact for
     // constant steps. What is too long by round-off does not make another cycle.

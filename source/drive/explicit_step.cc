@@ -182,7 +182,12 @@ namespace Touchstone
     // The velocity half a cycle before time 0, so that all cycles are alike.
     const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
-      now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * now.force(i));
+      {
+        Tensor<1, dim> acceleration = 1. / cells.masses()[i] * now.force(i);
+        if (!damping.empty())
+          acceleration -= damping[i] * at_start[i];
+        now.v[i] -= supports.free_part(i, 0.5 * now.length * acceleration);
+      }
     map.update_ghosts(now.v);
     if (impulses)
       {

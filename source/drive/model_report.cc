@@ -93,6 +93,17 @@ namespace Touchstone
                 readable(high[d]);
       return text;
     }
+
+    /** How many corners of cells of the mesh file a set has, and where. */
+    std::string
+    extent_of_set(const Forest::NodeSet &set)
+    {
+      std::vector<Point<dim>> points;
+      for (const auto &x : set)
+        points.emplace_back(x[0], x[1], x[2]);
+      return std::to_string(points.size()) + (points.size() == 1 ? " node" : " nodes") +
+             (points.empty() ? "" : ", " + extent(BoundingBox<dim>(points)));
+    }
   } // namespace
 
 
@@ -125,6 +136,9 @@ namespace Touchstone
             lines.push_back("  boundary " + name + ": " + readable(faces) + " faces, area " +
                             readable(area));
           }
+        for (const std::string &name : forest.names_of_node_sets(b))
+          lines.push_back("  set of nodes " + name + ": " +
+                          extent_of_set(forest.node_set(b, name)));
       }
     return lines;
   }

@@ -98,6 +98,53 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The node with the largest force on it: position, number of its body and its own; none where
+     * there are no forces. Collective. */
+    std::vector<double>
+    most_loaded_node(const Solid &solid, const Vector &forces)
+    {
+      Vector positions(solid.zero_vector());
+      VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
+      const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+
+      const auto force = [&forces](const std::size_t k) {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += forces.begin()[dim * k + d] * forces.begin()[dim * k + d];
+        return std::sqrt(square);
+      };
+      double largest = 0.;
+      for (std::size_t k = 0; k < body.size() / dim; ++k)
+        largest = std::max(largest, force(k));
+      largest = Utilities::MPI::max(largest, solid.communicator);
+      if (!(largest > 0.))
+        return {};
+
+      // Position, number of the body and of the node. Of forces that are equal, as those of nodes
+      // on both sides of a plane of symmetry, round-off must not choose: the first by position.
+      constexpr double    as_large = 0.99;
+      std::vector<double> worst;
+      for (std::size_t k = 0; k < body.size() / dim; ++k)
+        if (force(k) >= as_large * largest)
+          {
+            const double             *x = positions.begin() + dim * k;
+            const std::vector<double> node{x[0],
+                                           x[1],
+                                           x[2],
+                                           static_cast<double>(body[dim * k]),
+                                           static_cast<double>(
+                                             solid.owned.nth_index_in_set(dim * k) / dim)};
+            if (worst.empty() || node < worst)
+              worst = node;
+          }
+      return first_of_ranks(worst, 5, solid.communicator);
+    }
+  } // namespace
+
+
+
   std::string
   StepProblem::worst_place() const
   {
@@ -112,34 +159,12 @@ namespace Touchstone
     // What supports carry is not out of balance.
     Vector free(unbalanced);
     system->remove_supported(free);
-    Vector positions(solid.zero_vector());
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
-    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
-
-    // The worst node as numbers of which the first list is wanted: magnitude of the force with the
-    // other sign, position, number of the body and of the node. Of equal forces the first by
-    // position.
-    std::vector<double> worst;
-    for (std::size_t k = 0; k < body.size() / dim; ++k)
-      {
-        Tensor<1, dim> force;
-        for (unsigned int d = 0; d < dim; ++d)
-          force[d] = free.begin()[dim * k + d];
-        const double *x = positions.begin() + dim * k;
-        if (force.norm() > 0. && (worst.empty() || -force.norm() < worst[0]))
-          worst = {-force.norm(),
-                   x[0],
-                   x[1],
-                   x[2],
-                   static_cast<double>(body[dim * k]),
-                   static_cast<double>(solid.owned.nth_index_in_set(dim * k) / dim)};
-      }
-    worst = first_of_ranks(worst, 6, solid.communicator);
+    const std::vector<double> worst = most_loaded_node(solid, free);
     if (worst.empty())
       return "";
 
     // Pair of the node: a role as slave is more telling than that as a master node.
-    const auto node     = static_cast<Index>(worst[5]);
+    const auto node     = static_cast<Index>(worst[4]);
     int        pairs[2] = {-1, -1};
     for (const ContactRow &row : contact.rows())
       if (row.slave == node && row.has_partner)
@@ -149,8 +174,8 @@ namespace Touchstone
                  return e.node == node;
                }))
         pairs[1] = row.pair;
-    std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[4])].name + "' at " +
-                       readable({worst[1], worst[2], worst[3]});
+    std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[3])].name + "' at " +
+                       readable({worst[0], worst[1], worst[2]});
     for (unsigned int role = 0; role < 2; ++role)
       if (const int p = Utilities::MPI::max(pairs[role], solid.communicator); p >= 0)
         return text + (role == 0 ? ", a slave node of pair '" : ", a master node of pair '") +

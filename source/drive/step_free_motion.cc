@@ -16,7 +16,7 @@ namespace Touchstone
   namespace
   {
     /** What springs may carry of the forces that act: without a word, and at all. */
-    constexpr double round_off = 1e-6, little = 1e-4;
+    constexpr double round_off = 3e-7, little = 1e-4;
   } // namespace
 
 

@@ -35,7 +35,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (found[p] == 0)
         text += "; no master face within reach of any slave node of contact pair '" +
-                scene.pairs[p].name + "'";
+                scene.pairs[p].name +
+                "' (see its 'Slave boundaries', 'Master boundaries' and 'Search distance')";
     return text;
   }
 

@@ -98,9 +98,10 @@ namespace Touchstone
       {
         row.levered = true;
         // Behind the slave node and the obstacle's own.
-        const std::size_t    slot = row.first + row.n_nodes;
-        const Tensor<2, dim> lever =
-          tools.lever(of.pair, row.tied ? x : Point<dim>(x - here->gap_vector), time);
+        const std::size_t slot = row.first + row.n_nodes;
+        // About the node: at the obstacle's point the forces of friction on both would have a
+        // moment.
+        const Tensor<2, dim> lever = tools.lever(of.pair, x, time);
         if (row.along_normal)
           solver.on_normals[slot] = lever * row.normal;
         else

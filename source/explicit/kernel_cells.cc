@@ -157,8 +157,10 @@ namespace Touchstone
                                          const unsigned int j) { return K[n_unknowns * i + j]; },
                                      masses(c));
               }
-            estimate[c]   = now;
-            ratio_then[c] = smallest_ratio[c];
+            estimate[c] = now;
+            // Of this state: smallest_ratio is unknown until the first forces of a resumed run.
+            if (!small)
+              ratio_then[c] = go_to(c, u);
           }
         result[c] = exact[c] * (now / estimate[c]);
       }

@@ -17,6 +17,18 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  std::vector<std::string>
+  Forest::names_of_node_sets(const unsigned int body) const
+  {
+    std::vector<std::string> result;
+    for (const auto &[name, members] : node_sets[body])
+      if (has_node_set(body, name))
+        result.push_back(name);
+    return result;
+  }
+
+
+
   void
   Forest::vertex_has_moved(const unsigned int body,
                            const Point<dim>  &before,

@@ -22,6 +22,8 @@ namespace Touchstone
       rules.push_back({!scene.has_contact(), "Contact", "", "there are no contact pairs"});
       rules.push_back({cycles, "Newton", "", explicit_scheme});
       rules.push_back({cycles, "Linear solver", "", explicit_scheme});
+      rules.push_back(
+        {cycles, "Load stepping", "Maximum cuts", "cycles of explicit dynamics are not cut"});
       rules.push_back({!scene.refinement.active(), "Refinement", "", "its 'Estimator' is 'none'"});
       rules.push_back(
         {scene.reference.type.name == "none", "Reference solution", "", "its 'Type' is 'none'"});
@@ -45,6 +47,10 @@ namespace Touchstone
          scheme});
       for (const char *const key : {"Mass", "Impact", "Adapt steps", "Gain tolerance"})
         rules.push_back({!time.dynamic(), section, key, scheme});
+      rules.push_back({time.runs_in_cycles() && time.cycles.mass_scaling_step == 0.,
+                       section,
+                       "Largest added mass",
+                       "'Mass scaling step' is 0"});
       const bool implicit = time.dynamic() && !time.runs_in_cycles();
       for (const char *const key : {"Impact tolerance", "Smallest step"})
         {

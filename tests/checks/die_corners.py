@@ -4,7 +4,7 @@ its place does, with and without friction, inside of a box too, on two ranks; as
 and the message names the corner and the remedy."""
 # ctest: label = quick
 
-from touchstone_test import below, check, checks, finish, folder, relative, run
+from touchstone_test import STEPS, below, check, checks, finish, folder, relative, run, same, stopped_and_resumed
 
 SCENE = (checks / "die_with_corner.prm").read_text(encoding="utf-8")
 FLOOR, WALL = "floor", "wall"
@@ -63,6 +63,11 @@ for friction in False, True:
         found = sorted(map(tuple, (die.force("contact wall 1"), die.force("contact wall 2"))))
         for one, other in zip(found, wanted):
             below(f"{die}, force on a wall", max(abs(a - b) for a, b in zip(one, other)) / 30, 1e-9)
+
+# A run that goes on from a checkpoint has the faces and the friction of each wall.
+rubbed = {key.format("contact"): value for key, value in FRICTION.items()}
+same(run("in_steps", "die.prm", {**rubbed, STEPS: 4}),
+     stopped_and_resumed("stopped", folder / "die.prm", {**rubbed, STEPS: 4}, 2, ranks=2), 1e-9)
 
 # Three walls of the inside of a box: also those beside the block, which would bulge by the Poisson effect.
 box = run("box", "die.prm", {"Obstacle die/File": "box.stl", "Obstacle die/Side": "inside",

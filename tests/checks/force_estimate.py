@@ -62,6 +62,14 @@ check(relative(two, one) < 1e-3, f"conjugate gradients estimate {two}, MUMPS {on
 for plane in planes:
     judge(plane, "contact", fine - (coarse - fine) / 3)
 
+# With friction, where no supports of both sides meet at the edge of the contact.
+RUBBED = {"Contact pair contact/Behaviour": "coulomb", "Contact pair contact/Friction/Coefficient": 0.3}
+planes = [run(f"rubbed_plane_{factor}", prm / "hertz_rigid_plane.prm", {FACTOR: factor, **FORCE, **RUBBED})
+          for factor in (0.5, 1)]
+coarse, fine = (math.hypot(*plane.force("contact")) for plane in planes)
+for plane in planes:
+    judge(plane, "contact", fine - (coarse - fine) / 3)
+
 # Three tubes: what moves the force of a pair are the supports of all tubes on its side. On a mesh
 # that stays, any partitioner will do.
 tubes = {n: run(f"tubes_{n}", checks / "three_tubes.prm",

@@ -9,7 +9,7 @@ import itertools
 import pathlib
 import struct
 
-from touchstone_test import CG, DEGREE, FACTOR, below, check, finish, folder, relative, run
+from touchstone_test import CG, DEGREE, FACTOR, below, check, finish, folder, launch, relative, run
 
 X, Y, Z = (0, 0.5, 1.5, 3, 4), (0, 0.4, 1), (0, 0.5, 1)
 NODES = {(i, j, k): 1 + i + len(X) * (j + len(Y) * k)
@@ -191,6 +191,12 @@ for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1)
         below(f"{name}: reaction at {edge}", relative(result.reaction("beam", edge)[2], 1), 1e-7)
     below(f"{name}: no other reaction", max(abs(r) for r in (*result.reaction("beam", "left")[:2],
                                                             *result.reaction("beam", "one"))), 1e-7)
+
+# What the program has understood.
+for name, ranks in ("inp", 1), ("inp", 2), ("msh", 1):
+    understood = launch("--validate", bent[name], ranks=ranks).stdout
+    for line in "left: 3 nodes, x 0 to 0, y 0 to 1, z 0 to 0", "tips: 2 nodes, x 4 to 4, y 0 to 1, z 1 to 1":
+        check(f"set of nodes {line}" in understood, f"validate {name}: no '{line}' in {understood}")
 
 # Three points hold the block, forces at its tips: statics alone decides.
 points = scene("points", "beam.inp", "  set Fixed = one", "  set Boundary conditions = two, three, tips",

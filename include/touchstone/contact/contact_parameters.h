@@ -101,6 +101,14 @@ namespace Touchstone
     std::string
     section() const;
 
+    /** @brief The same, with a name that no other pair has: walls of an obstacle share a section.
+     */
+    std::string
+    unique_name() const
+    {
+      return "Contact pair " + name;
+    }
+
     /** @brief Whether the bodies are joined where they face each other. */
     bool
     tied() const

@@ -221,6 +221,9 @@ namespace Touchstone
      */
     double
     with_springs(double length, double square) const;
+    /** Shorten the stable step where damping in proportion to the mass is large for it. */
+    void
+    shorten_for_damping();
     /** Set assembled_to_cells at the displacement of the committed state. @param of_cells Stable
      * step of the cells, time. Collective. */
     void

@@ -190,7 +190,8 @@ namespace Touchstone
     ForcingTerm    forcing_term;
     StrayedBodies  strayed;
     HoldingSprings springs;
-    /** Norm of their forces, and the same relative to the forces that act, while they do. */
+    /** Sum of the sizes of their forces, and the same relative to the forces that act, while they
+     * do. */
     double spring_force = 0., spring_share = 0.;
     /** This attempt at the step is made without them. */
     bool without_springs = false;
@@ -220,6 +221,9 @@ namespace Touchstone
     /** Residual, its scale and its round-off. */
     void
     judge_balance(const Vector &without_contact, NewtonState &state);
+    /** What springs that hold bodies carry of the forces that act, 1 for all. Collective. */
+    double
+    share_of_springs(const Vector &contact_force) const;
     void
     update_active_set(unsigned int damping, NewtonState &state);
     /** @} */

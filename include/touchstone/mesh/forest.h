@@ -151,6 +151,10 @@ namespace Touchstone
       return names[body].count(name) == 0 && node_sets[body].count(name) > 0;
     }
 
+    /** @brief The names of the sets of nodes of a body. */
+    std::vector<std::string>
+    names_of_node_sets(unsigned int body) const;
+
     /** @brief A set of nodes: what a node of the mesh file is in, and what lies between nodes that
      * are. Refinement moves no corner of a coarse cell, so that coordinates tell them. */
     const NodeSet &

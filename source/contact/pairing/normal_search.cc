@@ -41,6 +41,10 @@ namespace Touchstone
     const auto  found = meet_from_outside(point.x, point.n, search.geometry(face));
     if (!found || std::abs(found->along) > farthest)
       return;
+    // Lines along a face meet it far from where the point is closest to it.
+    const Tensor<1, dim> normal = found->point.normal();
+    if (FaceTree::is_edge_on(normal, point.n))
+      return;
     const BeyondEdges beyond(face, found->xi);
     if (beyond.inner > Tolerances::face_coordinate ||
         beyond.outer > (point.stays_at_end ? Tolerances::edge_hysteresis : 1.) * edge_tolerance)
@@ -49,7 +53,7 @@ namespace Touchstone
     // the smaller key is taken on any number of ranks.
     const double tie =
       Tolerances::on_edge * face.position(0).distance(face.position(face.n_nodes() - 1));
-    if (on_far_side(tree, point.start, point.n, face, -found->along))
+    if (on_far_side(tree, point.start, point.n, face, found->along * (point.n * normal)))
       return;
     const double closer =
       best ? std::abs(best->at.along) - std::abs(found->along) : std::numeric_limits<double>::max();

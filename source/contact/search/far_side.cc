@@ -22,6 +22,15 @@ namespace Touchstone
 
 
 
+  double
+  depth_behind(const FacePoint &foot, const Point<dim> &x)
+  {
+    const double behind = (foot.x - x) * foot.normal();
+    return behind > 0. ? x.distance(foot.x) : behind;
+  }
+
+
+
   bool
   is_deep(const FaceTree &tree, const Face &face, const double depth)
   {
@@ -85,23 +94,28 @@ namespace Touchstone
       return false;
     const FacePoint foot = foot_at_start(start, face, tree.exchange.exact_surface(face));
     // What it has entered since the step began it has not been behind.
-    if (depth_at_start.value_or((foot.x - start) * foot.normal()) < 0.5 * depth)
+    if (depth_at_start.value_or(depth_behind(foot, start)) < 0.5 * depth)
       return false;
     const double         radius = start.distance(foot.x);
     const ClosestAtStart closest(tree, start, radius);
+    // Of a point beyond the edges of the face the normal of its row, along its distance.
+    const Tensor<1, dim> normal = depth_at_start ? foot.normal() : (foot.x - start) / radius;
     const double         cosine = Tolerances::about_normal, distance = closest.from_foot.norm(),
-                 height  = closest.from_foot * closest.normal,
-                 of_face = closest.normal * foot.normal(), of_slave = closest.normal * slave_normal;
+                 height = closest.from_foot * closest.normal, of_face = closest.normal * normal,
+                 of_slave = closest.normal * slave_normal;
     if (height > cosine * distance && std::max(-of_face, of_slave) > cosine)
       return true;
     // A facet may be behind while its arc is in front.
-    if (!depth_at_start || of_face >= cosine)
+    if (of_face >= cosine)
       return false;
-    // What was covered of an area that was far outside of the body: beside an edge, where normals
-    // have any direction, in front of some of the faces that meet in it and behind none.
+    // What was far outside of the body, beside an edge, where normals have any direction: in front
+    // of some of the faces that meet in it and behind none. A point may lie in the plane of the
+    // only one that the master has there.
     if (distance > Tolerances::strip * radius)
       return closest.lowest > -Tolerances::perpendicular_cosine * distance &&
-             closest.highest > Tolerances::perpendicular_cosine * distance;
+             (!depth_at_start || closest.highest > Tolerances::perpendicular_cosine * distance);
+    if (!depth_at_start)
+      return false;
     // The end of a shaft within a bore: where the end of that has straight edges in place of arcs
     // the former covers a strip of it, and lies beside the bore or in line with its other end.
     return of_slave > -cosine &&

@@ -14,6 +14,11 @@ namespace Touchstone
   FacePoint
   foot_at_start(const dealii::Point<dim> &start, const Face &face, const AnalyticSurface *exact);
 
+  /** @brief How far a point is behind the point of a face that is closest to it: what is beyond the
+   * edges of the face counts with its distance, as its gap does; in front of the face negative. */
+  double
+  depth_behind(const FacePoint &foot, const dealii::Point<dim> &x);
+
   /** @brief Whether a face is deeper behind a slave point than bodies in balance fit within, as all
    * on_far_side() are. False if steps are not committed. @param depth Length. */
   bool
@@ -25,8 +30,9 @@ namespace Touchstone
    *
    * When the step began the point was as deep behind the face, and in front of those faces that
    * were closest to it, whatever their normals; and these look away from the face, or the slave
-   * surface looks away from them. Of the middle of an area that was far outside of the body these
-   * may look anywhere, and one that lay close to them covers but a strip.
+   * surface looks away from them. What was far outside of the body, beside an edge, need be in
+   * front of none: these may look anywhere. The middle of an area that lay close to them covers but
+   * a strip.
    *
    * @param start          Of the point, when the step began; of an area its middle.
    * @param slave_normal   Unit outward normal of the slave surface there.
