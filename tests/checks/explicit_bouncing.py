@@ -69,13 +69,14 @@ for name, settings in (("frictionless", {}), ("friction", {"Contact pair contact
             below(f"{free}, {what}", max(math.dist(row[k], first[k]) for row in later), 1e-11)
 
 # A block in free flight that is damped: how far it comes, v (1 - exp(-a t)) / a.
-for factor, settings in (10, {}), (10, {"Time integration/Courant factor": 0.1}), (1e3, {}):
+# The last one needs shorter cycles than the cells.
+for factor, settings, bound in (10, {}, 1e-3), (10, {"Time integration/Courant factor": 0.1}, 1e-5), (1e3, {}, 5e-3):
     far = run(f"damped_{factor:g}_{len(settings)}", SCENE,
-              {**settings, "Contact pairs": "", "Obstacles": "", "Body block/Material/Rayleigh mass": factor,
+              {**settings, "Body block/Material/Rayleigh mass": factor,
                "Body block/Initial velocity x": 0, "Body block/Initial velocity y": 0, "Body block/Initial velocity z": 1,
                "Probes": "middle", "Probe middle/Body": "block", "Probe middle/Place": "point",
                "Probe middle/Point": "0.7, 0.5, 0.6", "Load stepping/End time": 5 / factor, STEPS: 5})
     for row in far.probe("middle")[1:]:
         way = (1 - math.exp(-factor * row["time"])) / factor
-        below(f"{far}, way at t = {row['time']:g}", abs(row["displacement_z"] / way - 1), 3e-3 if not settings else 3e-5)
+        below(f"{far}, way at t = {row['time']:g}", abs(row["displacement_z"] / way - 1), bound)
 finish()

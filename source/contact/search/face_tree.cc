@@ -107,11 +107,9 @@ namespace Touchstone
     const FaceGeometry geometry = exchange.geometry(*candidate.face);
     if (point.self != nullptr)
       return point.self->meets(point, geometry, candidate.projection);
-    return !on_far_side(*this,
-                        point.start,
-                        point.normal,
-                        *candidate.face,
-                        depth_behind(geometry.evaluate(candidate.projection.xi), point.x));
+    const FacePoint foot = geometry.evaluate(candidate.projection.xi);
+    return !on_far_side(
+      *this, point.start, point.normal, *candidate.face, (foot.x - point.x) * foot.normal());
   }
 
 

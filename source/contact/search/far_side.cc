@@ -22,15 +22,6 @@ namespace Touchstone
 
 
 
-  double
-  depth_behind(const FacePoint &foot, const Point<dim> &x)
-  {
-    const double behind = (foot.x - x) * foot.normal();
-    return behind > 0. ? x.distance(foot.x) : behind;
-  }
-
-
-
   bool
   is_deep(const FaceTree &tree, const Face &face, const double depth)
   {
@@ -94,15 +85,13 @@ namespace Touchstone
       return false;
     const FacePoint foot = foot_at_start(start, face, tree.exchange.exact_surface(face));
     // What it has entered since the step began it has not been behind.
-    if (depth_at_start.value_or(depth_behind(foot, start)) < 0.5 * depth)
+    if (depth_at_start.value_or((foot.x - start) * foot.normal()) < 0.5 * depth)
       return false;
     const double         radius = start.distance(foot.x);
     const ClosestAtStart closest(tree, start, radius);
-    // Of a point beyond the edges of the face the normal of its row, along its distance.
-    const Tensor<1, dim> normal = depth_at_start ? foot.normal() : (foot.x - start) / radius;
     const double         cosine = Tolerances::about_normal, distance = closest.from_foot.norm(),
-                 height = closest.from_foot * closest.normal, of_face = closest.normal * normal,
-                 of_slave = closest.normal * slave_normal;
+                 height  = closest.from_foot * closest.normal,
+                 of_face = closest.normal * foot.normal(), of_slave = closest.normal * slave_normal;
     if (height > cosine * distance && std::max(-of_face, of_slave) > cosine)
       return true;
     // A facet may be behind while its arc is in front.
@@ -120,5 +109,21 @@ namespace Touchstone
     // the former covers a strip of it, and lies beside the bore or in line with its other end.
     return of_slave > -cosine &&
            (closest.from_foot - height * closest.normal).norm() <= Tolerances::touching * radius;
+  }
+
+
+
+  bool
+  was_outside(const FaceTree &tree, const Point<dim> &start, const Face &face)
+  {
+    const FacePoint foot   = foot_at_start(start, face, tree.exchange.exact_surface(face));
+    const double    radius = start.distance(foot.x);
+    if (!is_deep(tree, face, radius))
+      return false;
+    const ClosestAtStart closest(tree, start, radius);
+    const double         distance = closest.from_foot.norm();
+    return distance > Tolerances::strip * radius &&
+           (closest.from_foot * closest.normal > Tolerances::about_normal * distance ||
+            closest.lowest > -Tolerances::perpendicular_cosine * distance);
   }
 } // namespace Touchstone

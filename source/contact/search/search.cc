@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/geometry/edge_normal.h>
+#include <touchstone/contact/search/far_side.h>
 #include <touchstone/contact/search/search.h>
 
 #include <algorithm>
@@ -47,6 +48,19 @@ namespace Touchstone
       const Tensor<1, dim> other = 2. * (edge * n) * edge - n;
       // Over a convex edge.
       return direction * other > 0. && (direction - (direction * n) * n) * other > 0.;
+    }
+
+
+
+    /** Whether a point is far from the contact point, about along the tangent plane. */
+    bool
+    is_beside(const ContactPartner &partner, const Point<dim> &x)
+    {
+      constexpr double     far      = 0.1;
+      const Tensor<1, dim> from     = x - partner.x;
+      const double         distance = from.norm();
+      return distance > far * diagonal(*partner.face) &&
+             std::abs(from * partner.normal) < Tolerances::perpendicular_cosine * distance;
     }
 
 
@@ -396,7 +410,13 @@ namespace Touchstone
     if (on_surface(found))
       result = partner(point, found);
     if (result && result->wedge < 0 &&
-        is_before_other_face(received.geometry(*result->face), result->xi, result->x, point.x))
+        (is_before_other_face(received.geometry(*result->face), result->xi, result->x, point.x) ||
+         was_outside(tree(), point.start, *result->face)))
+      result.reset();
+    // Where faces that are closer are none that the point meets this one ends at an edge: what is
+    // beside it, in its plane, touches it nowhere.
+    if (result && result->wedge == 0 && found.projection.beyond_inner > Tolerances::in_wedge &&
+        is_beside(*result, point.x))
       result.reset();
     if (result)
       {

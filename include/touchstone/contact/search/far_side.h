@@ -14,11 +14,6 @@ namespace Touchstone
   FacePoint
   foot_at_start(const dealii::Point<dim> &start, const Face &face, const AnalyticSurface *exact);
 
-  /** @brief How far a point is behind the point of a face that is closest to it: what is beyond the
-   * edges of the face counts with its distance, as its gap does; in front of the face negative. */
-  double
-  depth_behind(const FacePoint &foot, const dealii::Point<dim> &x);
-
   /** @brief Whether a face is deeper behind a slave point than bodies in balance fit within, as all
    * on_far_side() are. False if steps are not committed. @param depth Length. */
   bool
@@ -45,6 +40,12 @@ namespace Touchstone
               const Face                   &face,
               double                        depth,
               std::optional<double>         depth_at_start = {});
+
+  /** @brief Whether a point was far from a face when the step began, and outside of the body: then
+   * it is in no inner edge of that face, whatever plane it is behind. False if steps are not
+   * committed. */
+  bool
+  was_outside(const FaceTree &tree, const dealii::Point<dim> &start, const Face &face);
 } // namespace Touchstone
 
 #endif
