@@ -60,7 +60,7 @@ namespace Touchstone
 
 
   // Damping in proportion to the mass is stable in cycles of any length, but what is left of a
-  // velocity, (1 - a h/2)/(1 + a h/2), is exp(-a h) for short ones alone: ways are right to 0.4 %.
+  // velocity, (1 - a h/2)/(1 + a h/2), is exp(-a h) for short ones alone: ways are right to 0.3 %.
   void
   ExplicitStep::shorten_for_damping()
   {

@@ -183,10 +183,13 @@ namespace Touchstone
     const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
-        Tensor<1, dim> acceleration = 1. / cells.masses()[i] * now.force(i);
-        if (!damping.empty())
-          acceleration -= damping[i] * at_start[i];
-        now.v[i] -= supports.free_part(i, 0.5 * now.length * acceleration);
+        // With v_0 = v_{-1/2} - (h/2) a v_{-1/2} the way of a body that damping alone stops is
+        // exact.
+        const double half = damping.empty() ? 0. : 0.5 * damping[i] * now.length;
+        now.v[i] += supports.free_part(i,
+                                       1. / (1. - half) *
+                                         (half * at_start[i] -
+                                          0.5 * now.length / cells.masses()[i] * now.force(i)));
       }
     map.update_ghosts(now.v);
     if (impulses)

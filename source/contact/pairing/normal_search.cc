@@ -41,9 +41,9 @@ namespace Touchstone
     const auto  found = meet_from_outside(point.x, point.n, search.geometry(face));
     if (!found || std::abs(found->along) > farthest)
       return;
-    // Lines along a face meet it far from where the point is closest to it.
+    // Lines along a face meet it far behind a point that is hardly behind it.
     const Tensor<1, dim> normal = found->point.normal();
-    if (FaceTree::is_edge_on(normal, point.n))
+    if (is_deep(tree, face, -found->along) && FaceTree::is_edge_on(normal, point.n))
       return;
     const BeyondEdges beyond(face, found->xi);
     if (beyond.inner > Tolerances::face_coordinate ||

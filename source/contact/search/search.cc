@@ -416,7 +416,7 @@ namespace Touchstone
     // Where faces that are closer are none that the point meets this one ends at an edge: what is
     // beside it, in its plane, touches it nowhere.
     if (result && result->wedge == 0 && found.projection.beyond_inner > Tolerances::in_wedge &&
-        is_beside(*result, point.x))
+        found.projection.beyond_outer <= Tolerances::in_wedge && is_beside(*result, point.x))
       result.reset();
     if (result)
       {
