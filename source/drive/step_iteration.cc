@@ -74,7 +74,8 @@ namespace Touchstone
     if (springs.act())
       {
         const Vector of_springs = springs.forces(u);
-        spring_force            = of_springs.l1_norm();
+        spring_force            = of_springs.l2_norm();
+        sum_of_springs          = of_springs.l1_norm();
         applied += of_springs;
       }
     without_contact = applied;
@@ -122,7 +123,8 @@ namespace Touchstone
     constexpr double small_force = 1e-3, largest_round_off = 1e-6;
     force_scale        = largest_round_off * present > round_off ? present : 0.;
     const double scale = std::max(present, small_force * largest_force_scale);
-    spring_share       = scale > 0. ? present / scale * share_of_springs(contact_force) : 0.;
+    spring_share       = scale > 0. ? spring_force / scale : 0.;
+    carried_by_springs = scale > 0. ? present / scale * sum_carried_by_springs(contact_force) : 0.;
     state.force        = std::sqrt(left);
     state.residual     = scale > 0. ? state.force / scale : 0.;
     relative_residual  = state.residual;
@@ -135,15 +137,16 @@ namespace Touchstone
 
 
 
-  // Springs act on all nodes of a body, contact on few: only sums of their forces can be compared.
+  // Springs act on all nodes of a body, contact on few: only sums tell what is missing of a
+  // resultant.
   double
-  StepProblem::share_of_springs(const Vector &contact_force) const
+  StepProblem::sum_carried_by_springs(const Vector &contact_force) const
   {
     if (!springs.act())
       return 0.;
     const double present =
       std::max({internal.l1_norm(), external.l1_norm(), contact_force.l1_norm()});
-    return present > 0. ? spring_force / present : 0.;
+    return present > 0. ? sum_of_springs / present : 0.;
   }
 
 

@@ -190,9 +190,9 @@ namespace Touchstone
     ForcingTerm    forcing_term;
     StrayedBodies  strayed;
     HoldingSprings springs;
-    /** Sum of the sizes of their forces, and the same relative to the forces that act, while they
-     * do. */
-    double spring_force = 0., spring_share = 0.;
+    /** Norm of their forces, the same relative to the forces that act, and both as sums over the
+     * nodes, while they do. */
+    double spring_force = 0., spring_share = 0., sum_of_springs = 0., carried_by_springs = 0.;
     /** This attempt at the step is made without them. */
     bool without_springs = false;
     /** What the attempt after this one does, see next_attempt(). */
@@ -223,7 +223,7 @@ namespace Touchstone
     judge_balance(const Vector &without_contact, NewtonState &state);
     /** What springs that hold bodies carry of the forces that act, 1 for all. Collective. */
     double
-    share_of_springs(const Vector &contact_force) const;
+    sum_carried_by_springs(const Vector &contact_force) const;
     void
     update_active_set(unsigned int damping, NewtonState &state);
     /** @} */
