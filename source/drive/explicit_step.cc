@@ -183,8 +183,7 @@ namespace Touchstone
     const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
-        // With v_0 = v_{-1/2} - (h/2) a v_{-1/2} the way of a body that damping alone stops is
-        // exact.
+        // v_0 = (1 - a h/2) v_{-1/2}: the distance in which damping alone stops a body is exact.
         const double half = damping.empty() ? 0. : 0.5 * damping[i] * now.length;
         now.v[i] += supports.free_part(i,
                                        1. / (1. - half) *

@@ -410,13 +410,15 @@ namespace Touchstone
     if (on_surface(found))
       result = partner(point, found);
     if (result && result->wedge < 0 &&
-        (is_before_other_face(received.geometry(*result->face), result->xi, result->x, point.x) ||
-         was_outside(tree(), point.start, *result->face)))
+        is_before_other_face(received.geometry(*result->face), result->xi, result->x, point.x))
       result.reset();
-    // Where faces that are closer are none that the point meets this one ends at an edge: what is
-    // beside it, in its plane, touches it nowhere.
-    if (result && result->wedge == 0 && found.projection.beyond_inner > Tolerances::in_wedge &&
-        found.projection.beyond_outer <= Tolerances::in_wedge && is_beside(*result, point.x))
+    // Where faces that are closer are passed over this one ends at an edge. What was outside of the
+    // body is not in that edge, and what is beside it, in the plane of the face, touches nothing.
+    if (result &&
+        (result->wedge < 0 ||
+         (result->wedge == 0 && found.projection.beyond_inner > Tolerances::in_wedge &&
+          found.projection.beyond_outer <= Tolerances::in_wedge && is_beside(*result, point.x))) &&
+        was_outside(tree(), point.start, *result->face))
       result.reset();
     if (result)
       {
