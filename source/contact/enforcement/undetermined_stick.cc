@@ -22,15 +22,21 @@ namespace Touchstone
 
 
 
-    /** Number of rows of each slave node, over all pairs, with those that are open by less than the
-     * size of a face: the formulation of friction must not change with the active set, or the
-     * active set of each formulation could lead to the other one. */
+    /** Number of rows of each slave node, over all pairs, that were open by less than near_face of
+     * the size of a face when the step began: the formulation of friction must change neither with
+     * the active set, or the active set of each formulation could lead to the other one, nor with
+     * iterates, or it changes for ever where the gap of one is near the bound. */
     std::map<Index, unsigned int>
     near_rows(const Contact &contact)
     {
+      // Not one: where meshes end at a wall, the next nodes are one face away.
+      constexpr double              near_face = 0.7;
       std::map<Index, unsigned int> result;
       for (const ContactRow &row : contact.rows())
-        result[row.slave] += (row.has_partner && row.gap < row.size);
+        {
+          const ContactRow &before = contact.committed(row);
+          result[row.slave] += (before.has_partner && before.gap < near_face * row.size);
+        }
       return result;
     }
   } // namespace
