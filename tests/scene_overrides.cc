@@ -97,5 +97,27 @@ main()
   try_override("lock at no phase",
                {tied, cut + "Pretension force=50*t", cut + "Pretension until=clamp"});
   try_override("pretension that depends on the place", {tied, cut + "Pretension force=50*x"});
+  const std::string floor = "Obstacle floor/", free = floor + "Free directions=",
+                    scheme = "Time integration/Scheme=", lower = "Body lower/";
+  const std::vector<std::string> mass  = {floor + "Mass=1", floor + "Inertia=1, 1, 1"},
+                                 dense = {lower + "Material/Density=1",
+                                          "Body upper/Material/Density=1"};
+  const auto both = [](std::vector<std::string> one, const std::vector<std::string> &other) {
+    one.insert(one.end(), other.begin(), other.end());
+    return one;
+  };
+  const std::vector<std::string> dynamic =
+    both(both(dense, mass), {scheme + "newmark", "Time integration/Impact=elastic"});
+  try_override("inertia without dynamics", both(mass, {free + "x, about z"}));
+  try_override("moments of inertia of what does not turn", both(dynamic, {free + "x"}));
+  try_override("mass of what turns alone", both(dynamic, {free + "about z"}));
+  try_override("coefficient of a control that there is not",
+               both(dense,
+                    {scheme + "central_differences",
+                     lower + "Element=one point",
+                     lower + "Hourglass control=none",
+                     lower + "Hourglass coefficient=0.5"}));
+  try_override("a boundary on which nothing is prescribed",
+               {"Body upper/Boundary conditions=bottom", "Body upper/Boundary bottom/Pressure="});
   return 0;
 }

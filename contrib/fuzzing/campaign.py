@@ -61,7 +61,8 @@ class Verdict:
     seconds: float
     scene: object
 
-    WRONG_IS_NOT = ("not converged", "time limit", "refused", "variant not converged")
+    WRONG_IS_NOT = ("not converged", "time limit", "refused", "variant not converged",
+                    "differs, too coarse as it says")
 
     def kinds(self):
         """Kinds of findings, or 'as it must be'."""

@@ -43,7 +43,7 @@ namespace Touchstone
     prm.add_parameter("Mass scaling step",
                       mass_scaling_step,
                       "Of 'central_differences': cells that need shorter cycles than this get more "
-                      "mass at the start; 0 for none. [time]",
+                      "mass at the start, which has inertia but no weight; 0 for none. [time]",
                       Patterns::Double(0.));
     prm.add_parameter(
       "Largest added mass",

@@ -113,6 +113,35 @@ namespace Touchstone
 
 
     void
+    add_body(const BodyParameters &body, Rules &rules)
+    {
+      rules.push_back({body.hourglass == BodyParameters::Hourglass::none,
+                       body.section(),
+                       "Hourglass coefficient",
+                       "'Hourglass control' is 'none'"});
+    }
+
+
+
+    /** Inertia of an obstacle that forces move; of others it is refused. */
+    void
+    add_obstacle(const Scene &scene, const ObstacleParameters &obstacle, Rules &rules)
+    {
+      const FreeMotionParameters      &free = obstacle.free;
+      const TimeIntegrationParameters &time = scene.time_integration;
+      const bool        moves               = free.is_free(0) || free.is_free(1) || free.is_free(2);
+      const std::string section             = obstacle.section(),
+                        scheme = "'Time integration/Scheme' is '" + time.scheme.word() + "'";
+      for (const char *const key : {"Mass", "Inertia"})
+        rules.push_back({!time.dynamic(), section, key, scheme});
+      rules.push_back({!moves, section, "Mass", "no axis is among its 'Free directions'"});
+      rules.push_back(
+        {!free.turns(), section, "Inertia", "no turn is among its 'Free directions'"});
+    }
+
+
+
+    void
     add_output(const OutputParameters &output, Rules &rules)
     {
       for (const char *const key : {"Format", "Unsmoothed values"})
@@ -135,6 +164,10 @@ namespace Touchstone
     add_contact(scene, rules);
     for (const ContactPairParameters &pair : scene.pairs)
       add_pair(pair, rules);
+    for (const BodyParameters &body : scene.bodies)
+      add_body(body, rules);
+    for (const ObstacleParameters &obstacle : scene.obstacles)
+      add_obstacle(scene, obstacle, rules);
     add_output(scene.output, rules);
     return rules;
   }

@@ -109,6 +109,12 @@ namespace Touchstone
           (rule.key.empty() ? "section '" : "key '" + rule.key + "' of section '") + rule.section +
           "' has no effect: " + rule.reason);
       }
+    for (const BodyParameters &body : scene.bodies)
+      for (const auto &[name, boundary] : body.boundaries)
+        if (boundary.prescribes_nothing())
+          sentences.push_back("boundary '" + name +
+                              "' among the 'Boundary conditions' of section '" + body.section() +
+                              "' has no effect: its subsection prescribes nothing");
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (std::none_of(scene.pairs.begin(), scene.pairs.end(), [&](const auto &pair) {
             return pair.obstacle == obstacle.name;

@@ -4,6 +4,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/solid/boundary_parameters.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Keys of a section 'Boundary NAME' of a body: prescribed displacements and loads, all as
@@ -100,6 +101,18 @@ namespace Touchstone
             {"Moment x", moment[0]},
             {"Moment y", moment[1]},
             {"Moment z", moment[2]}};
+  }
+
+
+
+  bool
+  BoundaryParameters::prescribes_nothing() const
+  {
+    const auto all = formulas();
+    return std::all_of(all.begin(),
+                       all.end(),
+                       [](const auto &entry) { return entry.second.empty(); }) &&
+           spring_normal == 0. && spring_tangential == 0.;
   }
 
 

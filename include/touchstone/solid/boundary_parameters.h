@@ -66,6 +66,10 @@ namespace Touchstone
     std::vector<std::pair<std::string, std::string>>
     formulas() const;
 
+    /** @brief Neither a displacement nor a load nor springs. */
+    bool
+    prescribes_nothing() const;
+
     void
     declare(dealii::ParameterHandler &prm);
     /** Every expression parses; a component is not both moved and loaded. */
