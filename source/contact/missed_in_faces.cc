@@ -42,20 +42,20 @@ namespace Touchstone
       return result;
     }
 
-    /** Whether a point of one face is on the other side of the same body for another face. */
+    /** Whether a point of one face is on the other side of the same body for another face.
+     * @param cosine Of the angle between their normals at present. */
     bool
     through_body(const MeasuredFace &of,
                  const Xi           &xi,
                  const MeasuredFace &in,
                  const Xi           &foot,
-                 const double        depth)
+                 const double        depth,
+                 const double        cosine)
     {
-      const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
-      return SelfContact::through_body(
-        evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x,
-        there.x,
-        there.normal(),
-        depth);
+      const Point<dim> x     = evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x;
+      const FacePoint  there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
+      return SelfContact::through_body(x, there.x, there.normal(), depth) &&
+             !SelfContact::made_to_overlap(x, there.x, there.normal(), in.face, cosine);
     }
   } // namespace
 
@@ -125,7 +125,8 @@ namespace Touchstone
             if (depth < least || depth > size)
               continue;
           }
-        if (pair.parameters().of_one_body() && through_body(of, point.xi, in, foot, depth))
+        if (pair.parameters().of_one_body() &&
+            through_body(of, point.xi, in, foot, depth, point.normal * at_foot.normal()))
           continue;
         double counts = depth;
         if (part_adjusted > 0.)

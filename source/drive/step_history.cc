@@ -92,7 +92,10 @@ namespace Touchstone
   StepProblem::acceptable_part(const Energies &end) const
   {
     if (!integration->dynamic())
-      return 1.;
+      {
+        check_strain_energy(end);
+        return 1.;
+      }
     const TimeIntegrationParameters &parameters = scene.time_integration;
     // Energy that nothing has supplied comes from the discretisation in time; a shorter step
     // reduces it, hence the exception. No step may take more than half of what the steps before

@@ -50,6 +50,25 @@ namespace Touchstone
 
 
   std::vector<CombinationRule>
+  pressure_rules(const BodyParameters &body)
+  {
+    using Follows = BoundaryParameters::Follows;
+    std::vector<CombinationRule> rules;
+    for (const auto &[name, boundary] : body.boundaries)
+      rules.push_back(
+        {boundary.pressure_follows == Follows::surface && !body.material.finite_strain(),
+         body.section() + "/Boundary " + name,
+         "Pressure follows",
+         boundary.pressure_follows.word(),
+         "does not go with the law '" + body.material.law.name +
+           "', whose stresses do not turn with the material: what turns the pressure "
+           "on a slender body would be resisted by nothing but its stiffness",
+         "take a law for finite strain, for example 'neo-Hookean', or 'nothing'"});
+    return rules;
+  }
+
+
+  std::vector<CombinationRule>
   estimate_rules(const Scene &scene)
   {
     using Estimator             = RefinementParameters::Estimator;

@@ -26,6 +26,7 @@ namespace Touchstone
   {
     for (const BodyParameters &body : scene.bodies)
       obey(element_rules(scene, body));
+      obey(pressure_rules(body));
     obey(estimate_rules(scene));
     for (const ContactPairParameters &pair : scene.pairs)
       {

@@ -3,7 +3,7 @@
 #ifndef touchstone_contact_pressing_rows_h
 #define touchstone_contact_pressing_rows_h
 
-#include <touchstone/contact/row.h>
+#include <touchstone/contact/row_state.h>
 
 namespace Touchstone
 {

@@ -132,6 +132,16 @@ namespace Touchstone
      * than the second, the material between them would have been pulled to twice its length. */
     constexpr double come_closer = 0.25, through_material = 2.;
 
+    /** By the depth of the cell behind a face, what a point of the same body may lie behind it in
+     * the reference state where surfaces have been made to overlap: twice as much as is accepted at
+     * the start, and less than any wall is thick. */
+    constexpr double made_to_overlap = 0.05;
+    /** Cosine of the angle between the normals of such surfaces (154 degrees). */
+    constexpr double opposed = -0.9;
+    /** By the size of a face, the distance of two points in the reference state whose surfaces touch
+     * there: slip may be larger than the gap between them. */
+    constexpr double made_to_touch = 0.1;
+
     // ---------------------------------------------------------------- partial cover
 
     /** By the mean cover of a face, limits of the step S in doc/theory.md 3.1: below the first the

@@ -281,6 +281,14 @@ namespace Touchstone
     /** See try_commit(). */
     double
     acceptable_part(const Energies &end) const;
+    /** Of a static step: bodies have not stored many times more energy than loads can have supplied.
+     * @throws EnergyGain */
+    void
+    check_strain_energy(const Energies &end) const;
+    /** Nothing but loads and the closing of overlaps does work on the bodies in this step: no
+     * supports, obstacles or temperatures that change. Collective. */
+    bool
+    loads_alone_act() const;
     /** Call @p use with the forces at the end of the step. */
     void
     with_forces(const std::function<void(const StepForces &)> &use);

@@ -31,6 +31,10 @@ namespace Touchstone
   std::vector<CombinationRule>
   element_rules(const Scene &scene, const BodyParameters &body);
 
+  /** @brief Pressure that turns with a surface needs stresses that do (doc/theory.md 2.3). */
+  std::vector<CombinationRule>
+  pressure_rules(const BodyParameters &body);
+
   /** @brief Errors of contact forces are estimated in statics, of linear bodies (doc/theory.md 11).
    */
   std::vector<CombinationRule>

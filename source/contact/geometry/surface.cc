@@ -136,6 +136,26 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** See Face::depth_of_cell. */
+    double
+    depth_of_cell(const TriaAccessor<dim, dim, dim> &cell, const unsigned int f)
+    {
+      // Corners are numbered by bits, one for each direction, and so are pairs of faces.
+      const unsigned int direction = 1u << f / 2;
+      double             least     = std::numeric_limits<double>::max();
+      for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face; ++v)
+        {
+          const unsigned int corner = GeometryInfo<dim>::face_to_cell_vertices(f, v);
+          least = std::min(least, cell.vertex(corner).distance(cell.vertex(corner ^ direction)));
+        }
+      return least;
+    }
+  } // namespace
+
+
+
   std::vector<Surface::SplitEdge>
   Surface::collect_faces(const Solid &solid, const unsigned int body)
   {
@@ -153,10 +173,11 @@ namespace Touchstone
             cell->get_dof_indices(dofs);
             Face face;
             // Keys are the same on every rank: sums in their order do not depend on the partition.
-            face.key      = face_key(cell->id(), f);
-            face.degree   = solid.fe.degree;
-            face.boundary = cell->face(f)->boundary_id();
-            face.body     = body;
+            face.key           = face_key(cell->id(), f);
+            face.degree        = solid.fe.degree;
+            face.boundary      = cell->face(f)->boundary_id();
+            face.body          = body;
+            face.depth_of_cell = depth_of_cell(*cell, f);
             for (const NodeOnFace &on_face : nodes_of_faces[f])
               {
                 face.nodes[on_face.m] = dofs[on_face.dof] / dim;

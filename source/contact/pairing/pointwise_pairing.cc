@@ -153,6 +153,8 @@ namespace Touchstone
           point.self        = &*self;
           point.node        = row.slave;
           point.reference   = row.reference;
+          for (const auto &[face, m] : around)
+            point.made_normal += face->made_normals[m];
           point.also_master = also_master[k];
         }
       return point;

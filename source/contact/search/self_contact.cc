@@ -120,8 +120,15 @@ namespace Touchstone
                         const std::array<double, 2> &xi) const
   {
     // Where only one of the two can be the slave nothing is to be decided.
-    return !point.also_master || slave.count(face.boundary) == 0 ||
-           comes_first(point.reference, in_reference(face, FaceShapes(face.degree, xi)).first);
+    if (!point.also_master || slave.count(face.boundary) == 0)
+      return true;
+    const auto [foot, normal] = in_reference(face, FaceShapes(face.degree, xi));
+    if (point.reference.distance(foot) >= Tolerances::made_to_touch * reference_diagonal(face))
+      return comes_first(point.reference, foot);
+    // Where surfaces have been made to touch, the line between the two has no direction but that of
+    // their slip. As where there is a gap, what lies in front of the other one comes first.
+    const Tensor<1, dim> &of_node = point.made_normal;
+    return comes_first(Point<dim>(normal), Point<dim>(of_node / of_node.norm()));
   }
 
 
@@ -157,6 +164,19 @@ namespace Touchstone
 
 
   bool
+  SelfContact::made_to_overlap(const Point<dim>     &x,
+                               const Point<dim>     &foot,
+                               const Tensor<1, dim> &normal,
+                               const Face           &face,
+                               const double          cosine)
+  {
+    return cosine < Tolerances::opposed && !in_front(x, foot, normal) &&
+           x.distance(foot) < Tolerances::made_to_overlap * face.depth_of_cell;
+  }
+
+
+
+  bool
   SelfContact::meets(const SlavePoint   &point,
                      const FaceGeometry &geometry,
                      const Projection   &projection) const
@@ -185,6 +205,7 @@ namespace Touchstone
 
     const auto [at_foot, normal] = in_reference(face, FaceShapes(face.degree, projection.xi));
     return along_normal >= 0. || in_front(point.reference, at_foot, normal) ||
+           made_to_overlap(point.reference, at_foot, normal, face, point.normal * foot.normal()) ||
            !(through_body(point.reference, at_foot, normal, distance) ||
              was_behind(point, face, geometry.exact_surface(), distance));
   }

@@ -47,6 +47,9 @@ namespace Touchstone
     std::array<Index, max_nodes> nodes{};
     /** Those at the corners of the opposite face of the cell, in the order of the corners. */
     std::array<Index, behind> nodes_behind{};
+    /** Least distance of a corner from that opposite to it, in the reference state: the body is
+     * nowhere thinner behind the face. Length; zero where it is not known. */
+    double depth_of_cell = 0.;
     /** Nodes that leave their part of the face to the others, for no row is theirs: those of
      * Surface::set_without_rows(), in the order of the continuous basis, see TraceBasis. */
     std::array<bool, max_nodes>                   without_row{};

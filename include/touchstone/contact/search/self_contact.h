@@ -70,6 +70,19 @@ namespace Touchstone
                  const dealii::Tensor<1, dim> &normal,
                  double                        depth);
 
+    /**
+     * @brief Whether a point behind a face of its own body lies there since both have been made to
+     * overlap: it is closer than any other side of the body can be.
+     * @param x, foot, normal As in through_body().
+     * @param cosine          Of the angle between the normals of both surfaces at present.
+     */
+    static bool
+    made_to_overlap(const dealii::Point<dim>     &x,
+                    const dealii::Point<dim>     &foot,
+                    const dealii::Tensor<1, dim> &normal,
+                    const Face                   &face,
+                    double                        cosine);
+
     /** @brief Whether two faces have a node in common. */
     static bool
     share_node(const Face &one, const Face &other);
