@@ -25,8 +25,10 @@ namespace Touchstone
   check_combinations(const Scene &scene)
   {
     for (const BodyParameters &body : scene.bodies)
-      obey(element_rules(scene, body));
-      obey(pressure_rules(body));
+      {
+        obey(element_rules(scene, body));
+        obey(pressure_rules(body));
+      }
     obey(estimate_rules(scene));
     for (const ContactPairParameters &pair : scene.pairs)
       {

@@ -154,7 +154,7 @@ namespace Touchstone
           point.node        = row.slave;
           point.reference   = row.reference;
           for (const auto &[face, m] : around)
-            point.made_normal += face->made_normals[m];
+            point.made_normals.push_back(face->made_normals[m]);
           point.also_master = also_master[k];
         }
       return point;

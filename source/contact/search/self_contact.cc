@@ -126,9 +126,16 @@ namespace Touchstone
     if (point.reference.distance(foot) >= Tolerances::made_to_touch * reference_diagonal(face))
       return comes_first(point.reference, foot);
     // Where surfaces have been made to touch, the line between the two has no direction but that of
-    // their slip. As where there is a gap, what lies in front of the other one comes first.
-    const Tensor<1, dim> &of_node = point.made_normal;
-    return comes_first(Point<dim>(normal), Point<dim>(of_node / of_node.norm()));
+    // their slip. As where there is a gap, what lies in front of the other one comes first; and a
+    // node at the end of such a surface does not meet those that end there as well.
+    Tensor<1, dim> of_node;
+    bool           facing = false;
+    for (const Tensor<1, dim> &own : point.made_normals)
+      {
+        of_node += own;
+        facing = facing || own * normal < -Tolerances::about_normal;
+      }
+    return facing && comes_first(Point<dim>(normal), Point<dim>(of_node / of_node.norm()));
   }
 
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace Touchstone
 {
@@ -44,12 +45,12 @@ namespace Touchstone
     /** @name Where slave and master are the same body; null elsewhere */
     /** @{ */
     const SelfContact *self = nullptr;
-    /** The node, in its reference position, the mean of the normals of the faces around it in the
+    /** The node, in its reference position, the normals there of the faces around it in the
      * reference state, and whether it is a master node, too. */
-    Index                  node = invalid_index;
-    dealii::Point<dim>     reference{};
-    dealii::Tensor<1, dim> made_normal{};
-    bool                   also_master = false;
+    Index                               node = invalid_index;
+    dealii::Point<dim>                  reference{};
+    std::vector<dealii::Tensor<1, dim>> made_normals{};
+    bool                                also_master = false;
     /** @} */
   };
 } // namespace Touchstone
