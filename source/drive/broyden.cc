@@ -2,8 +2,6 @@
 
 #include <touchstone/drive/broyden.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +24,15 @@ namespace Touchstone
       for (std::size_t k = 0; k < a.size(); ++k)
         result[k] -= b[k];
       return result;
+    }
+
+    // Of all forces; smaller changes say more of the round-off in these than of the stiffness.
+    constexpr double telling = 1e-6;
+
+    double
+    stiffest(const Broyden::Sizes &sizes)
+    {
+      return *std::max_element(sizes.stiffness.begin(), sizes.stiffness.end());
     }
   } // namespace
 
@@ -82,7 +89,16 @@ namespace Touchstone
     present = elsewhere;
     last.clear();
     best.clear();
-    difference.reset();
+    columns.clear();
+    directions.clear();
+  }
+
+
+
+  void
+  Broyden::move(const Numbers &elsewhere)
+  {
+    present = elsewhere;
   }
 
 
@@ -92,17 +108,17 @@ namespace Touchstone
   {
     const unsigned int n = residual.size();
     ++changes;
-    if (difference)
+    if (in_differences())
       {
         columns.push_back(difference_of(residual, best_residual));
         for (double &entry : columns.back())
           entry /= width;
-        if (*difference + 1 < n)
-          {
-            take_difference(*difference + 1, sizes);
-            return {};
-          }
-        return end_differences(sizes);
+        if (columns.size() == n)
+          doubt_soft_directions(sizes);
+        if (columns.size() == directions.size())
+          return end_differences();
+        take_difference(sizes);
+        return {};
       }
     learn(residual, sizes);
     // So far a step may go wrong before it is shortened; the method needs some freedom.
@@ -111,7 +127,10 @@ namespace Touchstone
       longest = sizes.largest_step;
     cautious       = sizes.cautious;
     double allowed = longest;
-    if (best.empty() || norm(residual) <= growth * norm(best_residual))
+    // Where residuals are little more than what is left of the last solution of the bodies, none is
+    // better than another.
+    if (best.empty() || norm(residual) <= growth * norm(best_residual) ||
+        norm(residual) <= telling * sizes.force)
       {
         // A trust region: larger where changes of that size have taken a good part of the residual.
         constexpr double good = 0.75, nearly = 0.9, factor = 2.;
@@ -125,7 +144,12 @@ namespace Touchstone
     else
       allowed = std::min(longest, 0.5 * norm(difference_of(present, best)));
     if (n_differences < 2 && changes >= (n_differences + 1) * (8 + 3 * n))
-      take_difference(0, sizes);
+      {
+        directions.assign(n, Numbers(n));
+        for (unsigned int k = 0; k < n; ++k)
+          directions[k][k] = 1.;
+        take_difference(sizes);
+      }
     else
       step_from_best(allowed);
     return {};
@@ -142,9 +166,7 @@ namespace Touchstone
         inverse[k * n + k] = 1. / sizes.stiffness[k];
     if (!last.empty())
       {
-        // Small changes say more of the round-off in forces than of the stiffness.
-        constexpr double telling = 1e-6;
-        const Numbers    dr      = difference_of(residual, last_residual);
+        const Numbers dr = difference_of(residual, last_residual);
         if (norm(dr) > telling * sizes.force)
           broyden_update(inverse, difference_of(present, last), dr);
       }
@@ -170,37 +192,82 @@ namespace Touchstone
 
 
   void
-  Broyden::take_difference(const unsigned int k, const Sizes &sizes)
+  Broyden::take_difference(const Sizes &sizes)
   {
-    if (k == 0)
-      columns.clear();
-    difference = k;
-    // Large beside the round-off of forces, small beside the motion that makes them.
+    const std::size_t n = best.size(), k = columns.size();
+    // Large beside the round-off of forces, small beside the motion that makes them; in directions
+    // that look soft a thousand times as large, for round-off may be all that has been seen.
     constexpr double part = 1e-3;
-    width   = -std::copysign(part * sizes.force / sizes.stiffness[k], best_residual[k]);
+    const Numbers   &way  = directions[k];
+    width = k < n ? part * sizes.force / sizes.stiffness[k] : sizes.force / stiffest(sizes);
+    // Along what is missing, where obstacles come to bodies that they do not touch.
+    width *=
+      -std::copysign(1., std::inner_product(way.begin(), way.end(), best_residual.begin(), 0.));
     present = best;
-    present[k] += width;
+    for (std::size_t c = 0; c < n; ++c)
+      present[c] += width * way[c];
+  }
+
+
+
+  dealii::LAPACKFullMatrix<double>
+  Broyden::derivatives() const
+  {
+    const unsigned int               n = best.size();
+    dealii::LAPACKFullMatrix<double> matrix(n, n);
+    for (unsigned int c = 0; c < n; ++c)
+      for (unsigned int k = 0; k < n; ++k)
+        matrix(c, k) = columns[k][c];
+    // Soft directions, orthogonal to each other, as the larger differences have them.
+    for (unsigned int i = n; i < columns.size(); ++i)
+      for (unsigned int c = 0; c < n; ++c)
+        {
+          double change = columns[i][c];
+          for (unsigned int k = 0; k < n; ++k)
+            change -= columns[k][c] * directions[i][k];
+          for (unsigned int k = 0; k < n; ++k)
+            matrix(c, k) += change * directions[i][k];
+        }
+    return matrix;
+  }
+
+
+
+  void
+  Broyden::doubt_soft_directions(const Sizes &sizes)
+  {
+    const unsigned int n      = best.size();
+    auto               matrix = derivatives();
+    matrix.compute_svd();
+    // Small differences are exact to about so much of what is expected. The end of a slender beam
+    // may be softer, and is held all the same.
+    constexpr double smallest = 1e-5;
+    floor                     = std::max(stiffest(sizes), matrix.singular_value(0));
+    for (unsigned int i = 0; i < n; ++i)
+      if (!(matrix.singular_value(i) > smallest * floor))
+        {
+          Numbers direction(n);
+          for (unsigned int k = 0; k < n; ++k)
+            direction[k] = matrix.get_svd_vt()(i, k);
+          directions.push_back(direction);
+        }
+    constexpr double smallest_of_large = 1e-8;
+    floor *= smallest_of_large;
   }
 
 
 
   std::optional<Broyden::Numbers>
-  Broyden::end_differences(const Sizes &sizes)
+  Broyden::end_differences()
   {
-    const unsigned int n = best.size();
-    difference.reset();
+    const unsigned int n      = best.size();
+    auto               matrix = derivatives();
+    columns.clear();
+    directions.clear();
     last.clear();
     ++n_differences;
-    dealii::LAPACKFullMatrix<double> matrix(n, n);
-    for (unsigned int c = 0; c < n; ++c)
-      for (unsigned int k = 0; k < n; ++k)
-        matrix(c, k) = columns[k][c];
     matrix.compute_svd();
-    const double largest = *std::max_element(sizes.stiffness.begin(), sizes.stiffness.end());
-    // What finite differences show is exact to about so much of what is expected.
-    constexpr double smallest = 1e-5;
-    const double     bound    = smallest * std::max(largest, matrix.singular_value(0));
-    if (!(matrix.singular_value(n - 1) > bound))
+    if (!(matrix.singular_value(n - 1) > floor))
       {
         Numbers direction(n);
         for (unsigned int k = 0; k < n; ++k)

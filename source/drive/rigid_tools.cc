@@ -111,6 +111,38 @@ namespace Touchstone
 
 
 
+  double
+  RigidTools::loose_force(const unsigned int             t,
+                          const Numbers                 &residual,
+                          const double                   scale,
+                          const std::vector<PairResult> &results) const
+  {
+    for (const unsigned int p : tools[t].pairs())
+      if (results[p].active > 0)
+        return 0.;
+    double force = 0.;
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      if (unknowns[k].tool == t)
+        force = std::hypot(force, residual[k]);
+    return force > 1e-8 * scale ? force : 0.;
+  }
+
+
+
+  double
+  RigidTools::way_along_load(const unsigned int t,
+                             const Numbers     &residual,
+                             const double       force) const
+  {
+    Components direction{};
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      if (unknowns[k].tool == t)
+        direction[unknowns[k].component] = -residual[k] / (force * unknowns[k].scale);
+    return way_to_touch(tools[t], direction);
+  }
+
+
+
   bool
   RigidTools::approach(const Numbers                 &residual,
                        const double                   scale,
@@ -120,36 +152,45 @@ namespace Touchstone
     Numbers                x     = broyden.x();
     bool                   moved = false;
     for (unsigned int t = 0; t < tools.size(); ++t)
-      {
-        const RigidTool &tool   = tools[t];
-        unsigned int     active = 0;
-        for (const unsigned int p : tool.pairs())
-          active += results[p].active;
-        double force = 0.;
-        for (std::size_t k = 0; k < unknowns.size(); ++k)
-          if (unknowns[k].tool == t)
-            force = std::hypot(force, residual[k]);
-        if (active > 0 || force <= 1e-8 * scale)
-          continue;
-        Components direction{};
-        for (std::size_t k = 0; k < unknowns.size(); ++k)
-          if (unknowns[k].tool == t)
-            direction[unknowns[k].component] = -residual[k] / (force * unknowns[k].scale);
-        const double way = way_to_touch(tool, direction);
-        if (way == std::numeric_limits<double>::max() || approaches >= most)
-          throw NothingResists("the load moves the obstacle '" + tool.name() +
-                               "' to where it touches nothing: no force holds it");
-        // So far that a force arises.
-        const double further = std::min(force / (tool.modulus() * tool.face()), 0.1 * tool.face());
-        for (std::size_t k = 0; k < unknowns.size(); ++k)
-          if (unknowns[k].tool == t)
-            x[k] -= (way + further) * residual[k] / force;
-        moved = true;
-      }
+      if (const double force = loose_force(t, residual, scale, results); force > 0.)
+        {
+          const RigidTool &tool = tools[t];
+          const double     way  = way_along_load(t, residual, force);
+          if (way == std::numeric_limits<double>::max() || approaches >= most)
+            throw NothingResists("the load moves the obstacle '" + tool.name() +
+                                 "' to where it touches nothing: no force holds it");
+          // So far that a force arises.
+          const double further =
+            std::min(force / (tool.modulus() * tool.face()), 0.1 * tool.face());
+          for (std::size_t k = 0; k < unknowns.size(); ++k)
+            if (unknowns[k].tool == t)
+              x[k] -= (way + further) * residual[k] / force;
+          moved = true;
+        }
     approaches += moved;
     if (moved)
       broyden.jump(x);
     return moved;
+  }
+
+
+
+  void
+  RigidTools::return_to_touch(const Numbers                 &residual,
+                              const double                   scale,
+                              const std::vector<PairResult> &results)
+  {
+    // Forces do not change across a gap. Where it closes they are the same, and what they have
+    // changed by on the way to there is the stiffness of the contact that was lost.
+    Numbers x = broyden.x();
+    for (unsigned int t = 0; t < tools.size(); ++t)
+      if (const double force = loose_force(t, residual, scale, results); force > 0.)
+        if (const double way = way_along_load(t, residual, force);
+            way < std::numeric_limits<double>::max())
+          for (std::size_t k = 0; k < unknowns.size(); ++k)
+            if (unknowns[k].tool == t)
+              x[k] -= way * residual[k] / force;
+    broyden.move(x);
   }
 
 
@@ -172,13 +213,18 @@ namespace Touchstone
                             "' does not come to balance along '" +
                             FreeMotionParameters::word(unknowns[*bad].component) + "': " +
                             Patterns::Tools::to_string(part) + " of the largest force is missing",
-                          part);
+                          // Far from balance what is missing is itself the largest force, whatever
+                          // the step.
+                          std::abs(found.missing[*bad]) /
+                            (found.of_loads > 0. ? found.of_loads : found.largest));
       }
     if (!scheme && broyden.n_changes() == 0 && approach(found.missing, found.largest, results))
       {
         place();
         return true;
       }
+    if (!scheme && !broyden.in_differences())
+      return_to_touch(found.missing, found.largest, results);
     const Numbers stiff = stiffness(results);
     // Far away, where all nodes slide, the chord of their way, not the way, gives friction its
     // direction, and there are other balances.
@@ -200,7 +246,7 @@ namespace Touchstone
       by_forces = 10. * std::max(scheme ? by_forces : 0., found.largest / soft);
     if (const auto direction =
           broyden.advance(found.missing,
-                          {stiff, found.largest, std::max(motion, by_forces), friction}))
+                          {stiff, found.of_bodies, std::max(motion, by_forces), friction}))
       give_up(*direction, results);
     place();
     return true;

@@ -76,6 +76,11 @@ namespace Touchstone
         tool.present.load        = tool.load(time);
         tool.present.contact     = tool.force_of_bodies(results, time);
         const Components resists = scheme ? inertia(tool, motion_of(t)) : Components{};
+        // Also what holds it in its other directions: to a part of all of these forces are exact.
+        for (unsigned int c = 0; c < RigidTool::n_components; ++c)
+          result.of_bodies =
+            std::max(result.of_bodies,
+                     std::abs(tool.present.contact[c]) / (c < dim ? 1. : tool.length()));
         for (const Unknown &unknown : unknowns)
           if (unknown.tool == t)
             {
@@ -83,6 +88,7 @@ namespace Touchstone
               const double load = (1. - old) * tool.present.load[c] + old * tool.committed.load[c];
               result.missing.push_back((resists[c] - tool.present.contact[c] - load) /
                                        unknown.scale);
+              result.of_loads = std::max(result.of_loads, std::abs(load) / unknown.scale);
               for (const double force : {resists[c],
                                          tool.present.contact[c],
                                          tool.committed.contact[c],
@@ -96,6 +102,7 @@ namespace Touchstone
         result.size.push_back(sizes[unknown.tool][unknown.component / dim]);
         result.largest = std::max(result.largest, result.size.back());
       }
+    result.of_bodies = std::max(result.of_bodies, result.largest);
     return result;
   }
 
@@ -113,7 +120,7 @@ namespace Touchstone
         const RigidTool &tool = tools[unknowns[k].tool];
         // Moments that vanish between large forces, and forces of bodies that only touch.
         const double bound = std::max({tolerance * residual.size[k],
-                                       2. * residual_tolerance * residual.largest,
+                                       2. * residual_tolerance * residual.of_bodies,
                                        1e-14 * tool.modulus() * tool.length() * tool.length()});
         if (std::abs(residual.missing[k]) > most * bound)
           {

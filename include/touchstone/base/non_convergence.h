@@ -53,7 +53,7 @@ namespace Touchstone
   class NotBalanced : public NonConvergence
   {
   public:
-    /** @param missing Force that is missing, relative to the largest. */
+    /** @param missing Force that is missing, in one unit for all attempts. */
     NotBalanced(const std::string &what, const double missing)
       : NonConvergence(what)
       , missing(missing)
@@ -135,9 +135,17 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
 
     bool
-    shorter_step_may_help() const override
+    names_its_cause() const override
     {
-      return false;
+      return true;
+    }
+
+    /** Nothing is left of the stiffness: an attempt with half the step that finds this as well
+     * tells that the step is not the cause. */
+    std::optional<double>
+    measure() const override
+    {
+      return 0.;
     }
   };
 

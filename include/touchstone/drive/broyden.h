@@ -3,6 +3,8 @@
 #ifndef touchstone_drive_broyden_h
 #define touchstone_drive_broyden_h
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <optional>
 #include <vector>
 
@@ -59,12 +61,23 @@ namespace Touchstone
     void
     jump(const Numbers &elsewhere);
 
+    /** @brief Say that the next residual is not that at x(), but at @p elsewhere. */
+    void
+    move(const Numbers &elsewhere);
+
+    /** @brief Whether x() is there for a finite difference. */
+    bool
+    in_differences() const
+    {
+      return !directions.empty();
+    }
+
     /** What an iteration is measured by. */
     struct Sizes
     {
       /** What each unknown is expected to meet, force per length. */
       Numbers stiffness;
-      /** Of the forces that are to be in balance. */
+      /** Of the forces on obstacles, to which residuals are exact. */
       double force;
       /** No change is larger, length; if it is cautious, at first. */
       double largest_step;
@@ -86,11 +99,11 @@ namespace Touchstone
     double       longest  = 0.;
     bool         cautious = false;
     unsigned int changes  = 0;
-    /** Finite differences: the present unknown, its step, and the columns so far. */
-    std::optional<unsigned int> difference;
-    double                      width         = 0.;
-    unsigned int                n_differences = 0;
-    std::vector<Numbers>        columns;
+    /** Finite differences: along all unknowns, and then along those directions that look soft; what
+     * has been found so far; the present step, and the stiffness below which there is none. */
+    std::vector<Numbers> directions, columns;
+    double               width = 0., floor = 0.;
+    unsigned int         n_differences = 0;
 
     void
     learn(const Numbers &residual, const Sizes &sizes);
@@ -98,9 +111,13 @@ namespace Touchstone
     void
     step_from_best(double allowed);
     void
-    take_difference(unsigned int k, const Sizes &sizes);
+    take_difference(const Sizes &sizes);
+    dealii::LAPACKFullMatrix<double>
+    derivatives() const;
+    void
+    doubt_soft_directions(const Sizes &sizes);
     std::optional<Numbers>
-    end_differences(const Sizes &sizes);
+    end_differences();
   };
 } // namespace Touchstone
 

@@ -125,11 +125,12 @@ namespace Touchstone
     Components
     inertia(RigidTool &tool, const Components &motion) const;
     /** By unknown what is missing to balance, with changed sign, and the largest force or moment on
-     * its obstacle; and the largest of all. */
+     * its obstacle; the largest of all; and the largest with what bodies hold obstacles by in
+     * directions that are not free; the largest load. */
     struct Residual
     {
       Numbers missing, size;
-      double  largest = 0.;
+      double  largest = 0., of_bodies = 0., of_loads = 0.;
     };
     Residual
     residual(const std::vector<PairResult> &results);
@@ -143,6 +144,18 @@ namespace Touchstone
     approach(const Numbers &residual, double scale, const std::vector<PairResult> &results);
     double
     way_to_touch(const RigidTool &tool, const Components &direction) const;
+    /** The force that moves an obstacle which touches nothing, zero for all others. */
+    double
+    loose_force(unsigned int                   tool,
+                const Numbers                 &residual,
+                double                         scale,
+                const std::vector<PairResult> &results) const;
+    /** How far an obstacle would go along its load to touch a body, in the unknowns. */
+    double
+    way_along_load(unsigned int tool, const Numbers &residual, double force) const;
+    /** Let Broyden's method see obstacles that it has thrown off where they begin to touch. */
+    void
+    return_to_touch(const Numbers &residual, double scale, const std::vector<PairResult> &results);
     /** End the attempt: the balance does not change along @p direction.
      * @throws ToolSlides @throws NothingResists */
     [[noreturn]] void
