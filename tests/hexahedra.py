@@ -142,3 +142,36 @@ def ring(radius, thickness, width, around, across, along, span=2 * pi):
         angle, r = -span * point[0], radius + thickness * (point[2] - 0.5)
         return (r * cos(angle), width * (point[1] - 0.5), r * sin(angle))
     return Mesh().joined(strip.mapped(bent)).oriented()
+
+
+def write_gmsh(path, cells, place, boundary):
+    """Write a Gmsh file of hexahedra whose corners have any names: points at the same place with different names
+    are different nodes.
+
+    @param cells: the names of the corners of each, in the order of Gmsh.
+    @param place: the point of a name.
+    @param boundary: the name of the boundary of a face at the surface, given the names of its corners.
+    """
+    sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (2, 3, 7, 6), (1, 2, 6, 5), (0, 4, 7, 3))
+    numbers = {corner: n + 1 for n, corner in enumerate(dict.fromkeys(corner for cell in cells for corner in cell))}
+    faces = {}
+    for cell in cells:
+        for side in sides:
+            face = tuple(cell[a] for a in side)
+            faces.setdefault(frozenset(face), []).append(face)
+    outer = [found[0] for found in faces.values() if len(found) == 1]
+    names = sorted({boundary(face) for face in outer})
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(names)]
+    lines += [f'2 {n + 1} "{found}"' for n, found in enumerate(names)]
+    lines += ["$EndPhysicalNames", "$Nodes", len(numbers)]
+    lines += [" ".join(map(repr, (n, *place(corner)))) for corner, n in numbers.items()]
+    lines += ["$EndNodes", "$Elements", len(outer) + len(cells)]
+    elements = [(3, names.index(boundary(face)) + 1, face) for face in outer] + [(5, 100, cell) for cell in cells]
+    lines += [f"{n + 1} {kind} 2 {tag} {tag} {' '.join(str(numbers[corner]) for corner in corners)}"
+              for n, (kind, tag, corners) in enumerate(elements)]
+    path.write_text("\n".join(map(str, [*lines, "$EndElements", ""])), encoding="utf-8")
+
+
+def corners_of(i, j, k):
+    """The corners of a cell of a lattice, in the order of Gmsh."""
+    return [(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]

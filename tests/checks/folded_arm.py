@@ -3,14 +3,25 @@
 up, with some hundred times the energy that the pressure can have supplied. It is found out by that: the step is
 solved in another way, or the run ends and says why; a run that converges has the energy of a finer one."""
 
-from touchstone_test import STEPS, below, check, finish, folder, relative, run
-from hexahedra import box  # of tests/, which touchstone_test finds
+from touchstone_test import STEPS, below, finish, folder, relative, run
+from hexahedra import corners_of, write_gmsh  # of tests/, which touchstone_test finds
 
-SIZE = 1 / 6
-mesh = box((0, 0, 0), (SIZE, 0.5, 0.05), (1, 1, 1)).joined(box((0, 0, 0.05), (4, 0.5, 0.15), (24, 1, 1)))
-mesh.written(folder / "arm.vtk", {
-    "held": lambda p: p[0] == 0, "front": lambda p: p[1] == 0, "rear": lambda p: p[1] == 0.5,
-    "middle": lambda p: p[2] == 0, "top": lambda p: p[2] > 0.1, "below": lambda p: 0.04 < p[2] < 0.06 and p[0] > 0.9 * SIZE})
+CELLS = 24
+
+
+def boundary(face):
+    """A foot below the first cell stands on a plane of symmetry."""
+    for axis, end, name in ((0, 0, "held"), (1, 0, "front"), (1, 1, "rear"), (2, 0, "middle"), (2, 2, "top"), (2, 1, "below")):
+        if all(corner[axis] == end for corner in face):
+            return name
+    return "end"
+
+
+def write_arm(name, top):
+    write_gmsh(folder / name, [corners_of(0, 0, 0)] + [corners_of(i, 0, 1) for i in range(CELLS)],
+               lambda corner: (corner[0] / 6, 0.5 * corner[1], (0, 0.05, top)[corner[2]]), boundary)
+
+
 (folder / "arm.prm").write_text("""set Title         = Arm that is bent onto a plane
 set Bodies        = arm
 set Obstacles     = floor
@@ -21,9 +32,8 @@ subsection Body arm
   set Boundary conditions = top
   set Element             = F-bar
   subsection Geometry
-    set Type            = file
-    set File            = arm.vtk
-    set Boundary arrays = held, front, rear, middle, top, below
+    set Type = file
+    set File = arm.msh
   end
   subsection Material
     set Law           = neo-Hookean
@@ -47,11 +57,11 @@ subsection Output
 end
 """, encoding="utf-8")
 
-# With implicit dynamics, which cannot gain energy, and with 32 cells: 0.0053 and 0.0048.
+# With implicit dynamics, which cannot gain energy, 0.0053 as well; with 16 and 32 cells 0.0057 and 0.0048. Round-off
+# decides which of these arms fold up: the second one did with any number of steps.
 EXPECTED = 0.0053
-told = 0
-for steps in 6, 12, 24:
-    for load in 0.5, 1, 2:
-        result = run(f"arm_{steps}_{load}", "arm.prm", {STEPS: steps, "Body arm/Boundary top/Pressure": f"{load} * t"})
-        print(result, result.summary.get('converged'), result.rows()[-1].get('energy: strain') if result.summary else result.log[-300:])
+for number in range(4):
+    write_arm(f"arm_{number}.msh", 0.05 + 0.1 - 0.5 ** 55 * (1 - number))
+    result = run(f"arm_{number}", "arm.prm", {STEPS: 6, "Body arm/Geometry/File": f"arm_{number}.msh"})
+    below(f"{result}, energy", relative(result.rows()[-1]["energy: strain"], EXPECTED), 0.01)
 finish()

@@ -138,8 +138,8 @@ namespace Touchstone
     constexpr double made_to_overlap = 0.05;
     /** Cosine of the angle between the normals of such surfaces (154 degrees). */
     constexpr double opposed = -0.9;
-    /** By the size of a face, the distance of two points in the reference state whose surfaces touch
-     * there: slip may be larger than the gap between them. */
+    /** By the size of a face, the distance of two points in the reference state whose surfaces
+     * touch there: slip may be larger than the gap between them. */
     constexpr double made_to_touch = 0.1;
 
     // ---------------------------------------------------------------- partial cover

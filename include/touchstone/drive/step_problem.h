@@ -281,7 +281,8 @@ namespace Touchstone
     /** See try_commit(). */
     double
     acceptable_part(const Energies &end) const;
-    /** Of a static step: bodies have not stored many times more energy than loads can have supplied.
+    /** Of a static step: bodies have not stored many times more energy than loads can have
+     * supplied.
      * @throws EnergyGain */
     void
     check_strain_energy(const Energies &end) const;

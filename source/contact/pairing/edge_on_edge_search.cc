@@ -45,13 +45,28 @@ namespace Touchstone
     {
       if (edge.faces[1] == nullptr)
         return false;
-      return point.self == nullptr ||
-             std::all_of(edge.faces.begin(), edge.faces.end(), [&](const Face *const face) {
-               return point.self->may_meet(point, *face) &&
-                      point.self->is_slave(point,
-                                           *face,
-                                           node_coordinates(*face, face->number_of(edge.nodes[0])));
-             });
+      if (point.self == nullptr)
+        return true;
+      // Who is the slave is asked of the closest point of the edge, the same of both faces, but for
+      // faces that the node does not face where both touch as they are made.
+      const auto may_meet = [&](const Face *const face) {
+        return point.self->may_meet(point, *face);
+      };
+      const auto is_slave = [&](const Face *const face) {
+        const std::array<unsigned int, 2> ends = {
+          {face->number_of(edge.nodes[0]), face->number_of(edge.nodes[1])}};
+        const Point<dim>    &first = face->reference[ends[0]];
+        const Tensor<1, dim> along = face->reference[ends[1]] - first;
+        const double         s =
+          std::clamp((point.reference - first) * along / along.norm_square(), 0., 1.);
+        std::array<double, 2> xi    = node_coordinates(*face, ends[0]),
+                              other = node_coordinates(*face, ends[1]);
+        for (unsigned int a = 0; a < 2; ++a)
+          xi[a] += s * (other[a] - xi[a]);
+        return point.self->is_slave(point, *face, xi);
+      };
+      return std::all_of(edge.faces.begin(), edge.faces.end(), may_meet) &&
+             std::any_of(edge.faces.begin(), edge.faces.end(), is_slave);
     }
   } // namespace
 

@@ -150,9 +150,9 @@ namespace Touchstone
       });
       if (self)
         {
-          point.self        = &*self;
-          point.node        = row.slave;
-          point.reference   = row.reference;
+          point.self      = &*self;
+          point.node      = row.slave;
+          point.reference = row.reference;
           for (const auto &[face, m] : around)
             point.made_normals.push_back(face->made_normals[m]);
           point.also_master = also_master[k];
