@@ -54,6 +54,7 @@ for layers in 4, 8:
     write_mesh(f"touching_{layers}", 0.0, layers)
     write_mesh(f"overlapping_{layers}", -0.0025, layers)
     one = block(f"overlapping_{layers}", "sides")
+    check("an initial overlap" in one.log and "no master face" not in one.log, f"{one}: {one.log[:600]}")
     check(pressed(one) > 0.9 * 10 * AREA, f"overlapping: force {one.force('slit')}")
     for named in "both", "all":
         other = block(f"overlapping_{layers}", named)
