@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A block in the corner of an STL die, where nodes touch two walls or three: each wall carries what a plane in
 its place does, with and without friction, inside of a box too, on two ranks; as a whole the die has no solution,
-and the message names the corner and the remedy."""
+and the message names the corner and the remedy. Friction there converges by all exact enforcements where forces
+move the die, and where a block is thrown into the corner."""
 # ctest: label = quick
 
 from touchstone_test import STEPS, below, check, checks, finish, folder, relative, run, same, stopped_and_resumed
@@ -95,6 +96,23 @@ for cells, corner in ("4, 4, 4", "1, 1, 1"), ("4, 1, 4", "1, 1, 1"), ("4, 2, 4",
     for enforcement in "lagrange multipliers", "augmented lagrange":
         same(one, run(f"{name}_{enforcement}", "moved.prm", {**settings, "Contact/Enforcement": enforcement}), 1e-6)
     same(one, run(f"{name}_ranks", "moved.prm", settings, 2), 1e-9)
+
+# A block that is thrown into the corner, and out of it again: friction takes energy, nothing gives it.
+(folder / "thrown.prm").write_text((folder / "planes.prm").read_text(encoding="utf-8").replace(
+    "set Boundary conditions = top", "").replace(SCENE[SCENE.index("  subsection Boundary top"):
+                                                       SCENE.index("end\n\nsubsection Obstacle")], ""), encoding="utf-8")
+THROWN = {key.format(name): value for name in (FLOOR, WALL) for key, value in FRICTION.items()}
+THROWN.update({"Time integration/Scheme": "contact_stabilized", "Load stepping/End time": 1, STEPS: 100,
+               "Body block/Geometry/Lower corner": "0.2, 0, 0.3", "Body block/Geometry/Upper corner": "1.2, 1, 1.3",
+               "Body block/Geometry/Cells": "3, 3, 3", "Body block/Material/Law": "neo-Hookean",
+               "Body block/Material/Density": 1, "Body block/Initial velocity x": -1,
+               "Body block/Initial velocity y": 0.3, "Body block/Initial velocity z": -1.5})
+energies = []
+for enforcement in "elimination", "lagrange multipliers", "augmented lagrange":
+    rows = run(f"thrown_{enforcement}", "thrown.prm", {**THROWN, "Contact/Enforcement": enforcement}).rows()
+    energies.append(rows[-1]["energy: kinetic"] + rows[-1]["energy: strain"])
+    check(0.5 < energies[-1] / 1.67 < 1 and rows[-1]["energy: friction"] > 0, f"thrown: energy {energies[-1]}")
+    below(f"thrown, {enforcement}, energy", relative(energies[-1], energies[0]), 1e-4)
 
 whole = run("whole", "die.prm", {"Obstacle die/Walls": "whole"}, fails=True)
 check("obstacle 'die' has sharp edges that look inwards" in whole.log and "set its 'Walls' to 'separate'" in whole.log,

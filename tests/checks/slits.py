@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A block with a slit whose sides touch or overlap as the mesh is made: however the boundaries are named, each
 side alone or both as slave and master, contact is the same; sides that touch carry a uniform pressure exactly."""
-# ctest: label = quick
 
 from touchstone_test import below, check, checks, finish, folder, relative, run, same
 from hexahedra import corners_of, write_gmsh  # of tests/, which touchstone_test finds
