@@ -34,6 +34,16 @@ def prism(outline, low, high, caps):
     return triangles
 
 
+def friction_of(*pairs):
+    return {key.format(pair): value for pair in pairs for key, value in FRICTION.items()}
+
+
+def without_top(text):
+    """The scene without what moves the block."""
+    top = SCENE[SCENE.index("  subsection Boundary top"):SCENE.index("end\n\nsubsection Obstacle")]
+    return text.replace("set Boundary conditions = top", "").replace(top, "")
+
+
 def planes(friction):
     """The same scene with a plane for each wall."""
     text = SCENE[:SCENE.index("subsection Obstacle")] + SCENE[SCENE.index("subsection Output"):]
@@ -44,8 +54,7 @@ def planes(friction):
                  f"subsection Contact pair {name}\nset Slave body = block\nset Slave boundaries = bottom, left\n"
                  f"set Obstacle = {name}\nend\n")
     (folder / "planes.prm").write_text(text, encoding="utf-8")
-    settings = {key.format(name): value for name in (FLOOR, WALL) for key, value in FRICTION.items()} if friction else {}
-    return run(f"planes_{friction}", "planes.prm", settings)
+    return run(f"planes_{friction}", "planes.prm", friction_of(FLOOR, WALL) if friction else {})
 
 
 # A floor of which the wall at x = 0 is a part; and a box around the block.
@@ -58,7 +67,7 @@ write_stl("box", prism(BOX, 0, 1, [BOX]))
 for friction in False, True:
     exact = planes(friction)
     wanted = sorted(map(tuple, (exact.force(FLOOR), exact.force(WALL))))
-    settings = {key.format("contact"): value for key, value in FRICTION.items()} if friction else {}
+    settings = friction_of("contact") if friction else {}
     for ranks in 1, 2:
         die = run(f"die_{friction}_{ranks}", "die.prm", settings, ranks)
         found = sorted(map(tuple, (die.force("contact wall 1"), die.force("contact wall 2"))))
@@ -66,7 +75,7 @@ for friction in False, True:
             below(f"{die}, force on a wall", max(abs(a - b) for a, b in zip(one, other)) / 30, 1e-9)
 
 # A run that goes on from a checkpoint has the faces and the friction of each wall.
-rubbed = {key.format("contact"): value for key, value in FRICTION.items()}
+rubbed = friction_of("contact")
 same(run("in_steps", "die.prm", {**rubbed, STEPS: 4}),
      stopped_and_resumed("stopped", folder / "die.prm", {**rubbed, STEPS: 4}, 2, ranks=2), 1e-9)
 
@@ -85,9 +94,7 @@ for axis in 0, 2:
 MOVED = {**rubbed, "Body block/Fixed": "top", "Obstacle die/Free directions": "x, y, z",
          "Obstacle die/Reference point": "0.5, 0.5, 0", "Obstacle die/Force x": "5*t", "Obstacle die/Force y": "0.5*t",
          "Obstacle die/Force z": "20*t"}
-(folder / "moved.prm").write_text(SCENE.replace("set Boundary conditions = top", "")
-                                  .replace(SCENE[SCENE.index("  subsection Boundary top"):
-                                                 SCENE.index("end\n\nsubsection Obstacle")], ""), encoding="utf-8")
+(folder / "moved.prm").write_text(without_top(SCENE), encoding="utf-8")
 # One face away, and 0.7 faces, where the other formulation begins.
 for cells, corner in ("4, 4, 4", "1, 1, 1"), ("4, 1, 4", "1, 1, 1"), ("4, 2, 4", "1, 1.02049, 1"):
     name = "moved_" + cells.replace(", ", "_")
@@ -98,10 +105,8 @@ for cells, corner in ("4, 4, 4", "1, 1, 1"), ("4, 1, 4", "1, 1, 1"), ("4, 2, 4",
     same(one, run(f"{name}_ranks", "moved.prm", settings, 2), 1e-9)
 
 # A block that is thrown into the corner, and out of it again: friction takes energy, nothing gives it.
-(folder / "thrown.prm").write_text((folder / "planes.prm").read_text(encoding="utf-8").replace(
-    "set Boundary conditions = top", "").replace(SCENE[SCENE.index("  subsection Boundary top"):
-                                                       SCENE.index("end\n\nsubsection Obstacle")], ""), encoding="utf-8")
-THROWN = {key.format(name): value for name in (FLOOR, WALL) for key, value in FRICTION.items()}
+(folder / "thrown.prm").write_text(without_top((folder / "planes.prm").read_text(encoding="utf-8")), encoding="utf-8")
+THROWN = friction_of(FLOOR, WALL)
 THROWN.update({"Time integration/Scheme": "contact_stabilized", "Load stepping/End time": 1, STEPS: 100,
                "Body block/Geometry/Lower corner": "0.2, 0, 0.3", "Body block/Geometry/Upper corner": "1.2, 1, 1.3",
                "Body block/Geometry/Cells": "3, 3, 3", "Body block/Material/Law": "neo-Hookean",
